@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+namespace facemap {
+
+/// What the library throws for bad input. It never prints, aborts or exits.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A file that cannot be read. what() is "file:line: reason", or "file: reason" where no line is to blame.
+class LoadError : public Error {
+ public:
+  /// One value per cause, so that a caller can ask for the cause and not for the wording.
+  enum class Cause {
+    CannotOpen,
+    UnknownFormat,
+    BadNumber,
+    BadIndex,
+    TruncatedStatement,
+    NoFaces,
+    TooLarge,
+    BadEncoding,
+  };
+
+  /// `line` counts from 1; 0 means that no line is to blame.
+  LoadError(Cause cause, const std::string& file, std::int64_t line, const std::string& reason);
+
+  Cause cause() const noexcept { return cause_; }
+  const std::string& file() const noexcept { return file_; }
+  std::int64_t line() const noexcept { return line_; }
+  const std::string& reason() const noexcept { return reason_; }
+
+ private:
+  Cause cause_;
+  std::string file_;
+  std::int64_t line_;
+  std::string reason_;
+};
+
+}  // namespace facemap

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <facemap/material.h>
+#include <facemap/mesh.h>
+#include <facemap/obj.h>
+
+namespace facemap {
+
+/// Faces that are left out of every map, and why. Their ids stay theirs: nothing is renumbered.
+struct OddFaces {
+  std::int64_t zero_area = 0;        ///< corners exactly on one line, no vertex named twice
+  std::int64_t repeated_vertex = 0;  ///< two corners name the same vertex
+  std::int64_t duplicate = 0;        ///< the same three positions as a face of lower id, in any order
+};
+
+/// The geometry that maps are made of: a mesh, and which of its faces count. Immutable; maps keep a
+/// reference, so a scene must outlive them. Threads may read it together.
+class Scene {
+ public:
+  /// Takes a mesh. Throws Error if a position is not finite, an index is out of range or no face is given.
+  explicit Scene(Mesh mesh, std::vector<Material> materials = {});
+
+  /// Reads a model file; the reader is chosen by the file's name (.obj). Throws LoadError.
+  static Scene load(const std::filesystem::path& path);
+
+  const Mesh& mesh() const noexcept { return mesh_; }
+  const std::vector<Material>& materials() const noexcept { return materials_; }
+  const OddFaces& odd_faces() const noexcept { return odd_; }
+  const OBJ::Report& report() const noexcept { return report_; }
+
+  /// Number of faces, the odd ones included.
+  std::size_t face_count() const noexcept { return mesh_.face_count(); }
+
+  /// Whether `face` takes part in maps.
+  bool is_kept(std::size_t face) const { return kept_[face] != 0; }
+
+  /// Ids of the faces that take part, ascending.
+  const std::vector<std::uint32_t>& kept_faces() const noexcept { return kept_faces_; }
+
+  /// The axis-parallel box of the vertices of kept faces (of all positions if no face is kept).
+  const Vector& lower() const noexcept { return lower_; }
+  const Vector& upper() const noexcept { return upper_; }
+
+  /// The bounding sphere about the box's centre: centre, and the distance of the farthest vertex.
+  DVector centre() const noexcept { return centre_; }
+  double bounding_radius() const noexcept { return bounding_radius_; }
+
+ private:
+  Mesh mesh_;
+  std::vector<Material> materials_;
+  OBJ::Report report_;
+  OddFaces odd_;
+  std::vector<std::uint8_t> kept_;
+  std::vector<std::uint32_t> kept_faces_;
+  Vector lower_{0}, upper_{0};
+  DVector centre_{0};
+  double bounding_radius_ = 0;
+};
+
+}  // namespace facemap
