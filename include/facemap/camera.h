@@ -1,0 +1,52 @@
+#pragma once
+
+#include <limits>
+
+#include <facemap/face_map.h>
+#include <facemap/surface_point.h>
+
+namespace facemap {
+
+/// The FaceMap that keeps the faces closest to itself and answers which is nearest along a ray.
+/// Wang 2022, sec. 4.3: the Camera class.
+///
+/// A texel keeps every face that may be nearest for some direction in it, not only for its centre, so that
+/// rays elsewhere in the pixel are answered exactly too.
+class Camera : public FaceMap {
+ public:
+  struct Options {
+    ProjectionKind projection = ProjectionKind::Surface;
+    double field_angle = 0.87266462599716477;  ///< radians (50 degrees); see Projection
+    int width = 1024;                          ///< pixels
+    int height = 1024;                         ///< pixels
+    Builder builder = Builder::Cover;
+    bool keep_all = false;                     ///< keep faces behind full covers too (count_hits needs it)
+  };
+
+  /// Throws Error for options out of range.
+  Camera(const Scene& scene, const SpaceVector& frame, const Options& options);
+
+  /// World direction through a map point, rounded to float32: from there on it is exact input. The zero vector
+  /// where the projection has no direction (surface: more than 180 degrees from the axis).
+  Vector direction_through(const MapPoint& point) const;
+
+  struct Hit {
+    FaceId face = kNoFace;
+    float depth = std::numeric_limits<float>::infinity();  ///< distance along the ray in world units
+    bool strictly_inside = false;  ///< not on an edge or a vertex of the face
+    bool tied = false;             ///< another face is met at exactly the same distance
+    int side = 0;                  ///< of the face, as FaceMap::side
+
+    explicit operator bool() const noexcept { return face != kNoFace; }
+  };
+
+  /// The nearest face along `direction` (any length); none for the zero vector and outside the raster. Edges
+  /// and vertices belong to their faces. Of faces at exactly the same distance the one turned towards the
+  /// camera wins, then the lower id. Exact with Builder::Cover.
+  Hit nearest(const Vector& direction, Counters* counters = nullptr) const;
+
+  /// The true point that `hit = nearest(direction)` sees. `hit` must hold a face.
+  SurfacePoint surface_point(const Vector& direction, const Hit& hit) const;
+};
+
+}  // namespace facemap

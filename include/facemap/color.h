@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+
+namespace facemap {
+
+/// Linear RGB; 1 is white. Wang 2022, sec. 4.3: the Color class.
+struct Color {
+  float r = 0, g = 0, b = 0;
+
+  friend Color operator+(Color a, Color b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
+  friend Color operator-(Color a, Color b) { return {a.r - b.r, a.g - b.g, a.b - b.b}; }
+  friend Color operator*(Color a, float s) { return {a.r * s, a.g * s, a.b * s}; }
+  friend Color operator*(Color a, Color b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
+  friend bool operator==(const Color&, const Color&) = default;
+
+  /// 0xRRGGBB: sRGB transfer (IEC 61966-2-1), clamped to 0..1, rounded to nearest. NaN is 0.
+  std::uint32_t to_24_bit() const;
+};
+
+}  // namespace facemap

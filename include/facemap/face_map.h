@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <facemap/counters.h>
+#include <facemap/face.h>
+#include <facemap/projection.h>
+#include <facemap/scene.h>
+#include <facemap/space_vector.h>
+
+namespace facemap {
+
+class FacePlanesTable;
+class Texels;
+
+/// How the texels of a map get their faces.
+enum class Builder {
+  Cover,  ///< every texel that a face touches, never one too few: exact answers
+  Fill,   ///< as published (Alg. 2 to 4): texels whose centres lie between curve crossings; can miss a face at its edge
+};
+
+/// A raster of directions about one fixed point whose texels hold the faces lying there. Wang 2022, sec. 4.
+/// Abstract: a Camera keeps what is nearest, a PointLight keeps all. The scene must outlive the map.
+/// Const members may be called by several threads together.
+class FaceMap : public SpaceVector {
+ public:
+  virtual ~FaceMap() = 0;
+  FaceMap(FaceMap&&) noexcept;
+  FaceMap& operator=(FaceMap&&) noexcept;
+
+  const Scene& scene() const noexcept { return *scene_; }
+  const Projection& projection() const noexcept { return projection_; }
+  Builder builder() const noexcept { return builder_; }
+  int width() const noexcept { return projection_.width(); }
+  int height() const noexcept { return projection_.height(); }
+
+  /// Side of the face's plane on which the map's origin lies, exactly: -1 the face is turned towards it, 1
+  /// away, 0 seen edge-on (hit by nothing). 0 for odd faces, which are in no map.
+  int side(FaceId face) const;
+
+  /// The candidates of a texel, nearest bound first: with Builder::Cover a superset of the faces that any
+  /// direction in the texel meets, ended behind a face that covers the texel unless the map keeps all.
+  std::span<const std::uint32_t> faces_at(int texel_x, int texel_y) const;
+
+  /// The texel that holds a world direction of any length (not zero); none outside the raster.
+  struct Texel {
+    int x, y;
+  };
+  std::optional<Texel> texel_of(const DVector& direction) const;
+
+  /// How many faces the ray from the origin along `direction` meets, edges and vertices included; exact if the
+  /// map keeps all (Options::keep_all) and is built by Cover. 0 outside the raster or for a zero direction.
+  int count_hits(const Vector& direction, Counters* counters = nullptr) const;
+
+  /// Bytes of lists and planes.
+  std::size_t memory_bytes() const noexcept;
+
+  /// Entries in all lists.
+  std::size_t entry_count() const noexcept;
+
+ protected:
+  FaceMap(const Scene& scene, const SpaceVector& frame, const Projection& projection, Builder builder, bool keep_all);
+
+  const FacePlanesTable& planes() const noexcept { return *planes_; }
+  const Texels& texels() const noexcept { return *texels_; }
+
+ private:
+  const Scene* scene_;
+  Projection projection_;
+  Builder builder_;
+  bool keep_all_;
+  std::unique_ptr<FacePlanesTable> planes_;
+  std::unique_ptr<Texels> texels_;
+};
+
+}  // namespace facemap

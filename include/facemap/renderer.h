@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <facemap/camera.h>
+#include <facemap/color.h>
+#include <facemap/image.h>
+#include <facemap/point_light.h>
+#include <facemap/scene.h>
+
+namespace facemap {
+
+/// Where a camera stands and looks.
+struct View {
+  Vector position{0, 0, 0};
+  Vector look_at{0, 0, -1};
+  Vector up{0, 1, 0};
+  double field_angle = 0.87266462599716477;  ///< radians (50 degrees)
+  ProjectionKind projection = ProjectionKind::Surface;
+};
+
+/// A point light as a user states it. Radiance = colour * intensity * cos [/ distance^2].
+struct Light {
+  Vector position{0};
+  Color color{1, 1, 1};
+  float intensity = 1;
+};
+
+/// A view in which the scene's bounding sphere just fits the field angle (50 degrees), from direction (0.5, 0.6, 1).
+View make_up_view(const Scene& scene, const View& wanted = View());
+
+/// Eight lights on two rings about the scene, intensity 1/4 each.
+std::vector<Light> make_up_lights(const Scene& scene);
+
+/// Controls the whole rendering. Wang 2022, sec. 4.3: the Renderer class: model, camera, lights, image.
+class Renderer {
+ public:
+  enum class Normals { Flat, Smooth };
+  enum class Falloff { Constant, InverseSquare };
+  enum class Sampling {
+    Grid,   ///< samples x samples fixed points a pixel
+    Edges,  ///< the paper's way (Fig. 3): one sample, and samples x samples where the pixel may hold an edge
+  };
+
+  struct Options {
+    int width = 1024;                        ///< pixels
+    int height = 1024;                       ///< pixels
+    Sampling sampling = Sampling::Grid;
+    int samples = 1;                         ///< a side of the grid in a pixel, 1..16
+    Normals normals = Normals::Smooth;       ///< smooth where the file gives normals or smoothing groups
+    bool shadow_terminator_fix = true;       ///< Hanika 2021; matters with smooth normals only
+    Falloff falloff = Falloff::Constant;
+    Color background{0, 0, 0};               ///< linear RGB
+    Builder builder = Builder::Cover;
+    bool want_ids = false, want_depths = false, want_lights = false;  ///< planes to fill
+  };
+
+  struct Statistics {
+    double camera_map_ms = 0, light_maps_ms = 0, shade_ms = 0;
+    std::uint64_t camera_queries = 0, light_queries = 0;
+    std::uint64_t upsampled_pixels = 0;
+    Counters camera_tests, light_tests;
+    std::size_t map_bytes = 0;               ///< lists and planes of all maps
+  };
+
+  /// Fraction done (0..1) and the phase's name; called now and then. Return false to stop: render() then throws Error.
+  using Progress = std::function<bool(double, const char*)>;
+
+  /// The scene must outlive the renderer. Throws Error for options out of range.
+  Renderer(const Scene& scene, const View& view, std::vector<Light> lights, const Options& options);
+
+  /// The same pixels and planes every time. Pixels without a face have the background's colour.
+  Image render(const Progress& progress = {});
+
+  const Statistics& statistics() const noexcept { return statistics_; }
+
+ private:
+  const Scene* scene_;
+  View view_;
+  std::vector<Light> lights_;
+  Options options_;
+  Statistics statistics_;
+};
+
+}  // namespace facemap
