@@ -27,6 +27,9 @@ struct Image {
 /// beside `path` and renamed. Throws Error, naming the file and the reason (disk full included).
 void write_png(const Image& image, const std::filesystem::path& path);
 
+/// The bytes of that file, for a pipe or a web server. Throws Error if the image is empty.
+std::vector<std::uint8_t> encode_png(const Image& image);
+
 /// Write one plane as a NumPy .npy file (version 1.0), the same way: int32 [H,W], float32 [H,W], uint8 [H,W,B].
 void write_ids_npy(const Image& image, const std::filesystem::path& path);
 void write_depths_npy(const Image& image, const std::filesystem::path& path);

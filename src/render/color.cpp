@@ -1,0 +1,62 @@
+#include <facemap/color.h>
+
+#include <array>
+#include <bit>
+#include <limits>
+
+#include "math/elementary.h"
+
+namespace facemap {
+namespace {
+
+constexpr int kLevels = 256;
+constexpr int kBins = 4096;
+
+/// IEC 61966-2-1: the linear value of an encoded one in 0..1.
+double linear_from_srgb(double encoded) {
+  if (encoded <= 0.04045) return encoded / 12.92;
+  return elementary::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+/// The smallest float that is not below `value`.
+float float_at_or_above(double value) {
+  const float nearest = static_cast<float>(value);
+  if (nearest >= value) return nearest;
+  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearest) + 1);  // positive: the next larger one
+}
+
+/// Rounding to the nearest level means counting the half-way points at or below a value. In linear light they
+/// are at least 1 / (255 * 12.92) = 1.24 bins apart, so a bin holds one at most, and one comparison decides.
+class LevelTable {
+ public:
+  LevelTable() {
+    for (int level = 1; level < kLevels; ++level)
+      half_way_[level] = float_at_or_above(linear_from_srgb((level - 0.5) / 255));
+    half_way_[kLevels] = std::numeric_limits<float>::infinity();
+    int level = 0;
+    for (int bin = 0; bin < kBins; ++bin) {
+      while (half_way_[level + 1] <= static_cast<float>(bin) / kBins) ++level;
+      at_bin_start_[bin] = static_cast<std::uint8_t>(level);
+    }
+  }
+
+  std::uint32_t level(float linear) const {
+    if (!(linear > 0)) return 0;
+    if (linear >= 1) return kLevels - 1;
+    const std::uint32_t below = at_bin_start_[static_cast<int>(linear * kBins)];
+    return below + (linear >= half_way_[below + 1] ? 1 : 0);
+  }
+
+ private:
+  std::array<float, kLevels + 1> half_way_{};  ///< [k]: where level k begins, linear; [0] is not used
+  std::array<std::uint8_t, kBins> at_bin_start_{};
+};
+
+}  // namespace
+
+std::uint32_t Color::to_24_bit() const {
+  static const LevelTable table;
+  return table.level(r) << 16 | table.level(g) << 8 | table.level(b);
+}
+
+}  // namespace facemap

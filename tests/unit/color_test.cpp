@@ -1,0 +1,77 @@
+#include <facemap/color.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace {
+
+using facemap::Color;
+
+/// The encoded value times 255, before rounding, by the C library: IEC 61966-2-1.
+double encoded_255(double linear) {
+  return 255 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
+}
+
+int level(float linear) { return static_cast<int>(Color{linear, 0, 0}.to_24_bit() >> 16); }
+
+/// The smallest float of level `wanted` or more.
+float where_level_begins(int wanted) {
+  float below = 0, above = 1;
+  while (std::nextafter(below, above) < above) {
+    const float middle = below + (above - below) / 2;
+    (level(middle) >= wanted ? above : below) = middle;
+  }
+  return above;
+}
+
+TEST(Color, RoundsToTheNearestLevel) {
+  for (int wanted = 1; wanted < 256; ++wanted) {
+    const float first = where_level_begins(wanted);
+    const float last_before = std::nextafter(first, 0.0f);
+    EXPECT_GE(encoded_255(first), wanted - 0.5 - 1e-12) << wanted;  // 1e-12 levels: the C library's own rounding
+    EXPECT_LE(encoded_255(last_before), wanted - 0.5 + 1e-12) << wanted;
+  }
+}
+
+TEST(Color, NoFloatIsTooNearHalfWayToBeSure) {
+  // The table's half-way points have relative errors below 2^-46; every float is 2^-40 away from them or more.
+  for (int wanted = 1; wanted < 256; ++wanted) {
+    const double encoded = (wanted - 0.5) / 255;
+    const double half_way = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+    const double off = std::fabs(static_cast<double>(static_cast<float>(half_way)) - half_way);
+    EXPECT_GT(off, half_way * 0x1p-40) << wanted;
+  }
+}
+
+TEST(Color, LevelsGrowWithTheValue) {
+  int before = 0;
+  for (int i = 0; i <= 1 << 20; ++i) {
+    const int now = level(static_cast<float>(i) * 0x1p-20f);
+    ASSERT_TRUE(now == before || now == before + 1) << i;
+    before = now;
+  }
+  EXPECT_EQ(before, 255);
+}
+
+TEST(Color, ClampsAndTakesNanAsBlack) {
+  EXPECT_EQ((Color{-1, 2, std::nanf("")}).to_24_bit(), 0x00ff00u);
+  const float infinity = std::numeric_limits<float>::infinity();
+  EXPECT_EQ((Color{infinity, -infinity, 0}).to_24_bit(), 0xff0000u);
+  EXPECT_EQ((Color{-0.0f, std::numeric_limits<float>::denorm_min(), 1}).to_24_bit(), 0x0000ffu);
+}
+
+TEST(Color, ChannelsStandInTheirPlaces) {
+  EXPECT_EQ((Color{1, 0.5f, 0.25f}).to_24_bit(), 0xffbc89u);
+  EXPECT_EQ((Color{0.2158605f, 0, 1}).to_24_bit(), 0x8000ffu);
+}
+
+TEST(Color, AddsSubtractsAndMultiplies) {
+  const Color a{1, 2, 3}, b{0.5f, 0.25f, 2};
+  EXPECT_EQ(a + b, (Color{1.5f, 2.25f, 5}));
+  EXPECT_EQ(a - b, (Color{0.5f, 1.75f, 1}));
+  EXPECT_EQ(a * 2, (Color{2, 4, 6}));
+  EXPECT_EQ(a * b, (Color{0.5f, 0.5f, 6}));
+}
+
+}  // namespace
