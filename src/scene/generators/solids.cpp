@@ -1,5 +1,7 @@
 #include "scene/generators/solids.h"
 
+#include <cmath>
+
 #include <glm/geometric.hpp>
 
 #include "math/elementary.h"
@@ -152,7 +154,7 @@ Solid bar(const std::vector<DVector>& path, const std::vector<double>& radii, in
   Solid solid;
   const std::size_t n = path.size();
   DVector direction = normalize(path[1] - path[0]);
-  DVector u = abs(direction.x) < 0.9 ? DVector(1, 0, 0) : DVector(0, 1, 0), v;
+  DVector u = std::abs(direction.x) < 0.9 ? DVector(1, 0, 0) : DVector(0, 1, 0), v;
   Ring before;
   for (std::size_t i = 0; i < n; ++i) {
     direction = normalize(path[i + 1 < n ? i + 1 : i] - path[i > 0 ? i - 1 : 0]);

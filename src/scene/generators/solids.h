@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/geometric.hpp>
+
 #include <facemap/mesh.h>
 #include <facemap/vector.h>
 
