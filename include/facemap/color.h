@@ -16,6 +16,9 @@ struct Color {
 
   /// 0xRRGGBB: sRGB transfer (IEC 61966-2-1), clamped to 0..1, rounded to nearest. NaN is 0.
   std::uint32_t to_24_bit() const;
+
+  /// The linear colour of 0xRRGGBB; to_24_bit() gives it back.
+  static Color from_24_bit(std::uint32_t rgb);
 };
 
 }  // namespace facemap

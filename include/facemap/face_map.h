@@ -72,7 +72,6 @@ class FaceMap : public SpaceVector {
   const Scene* scene_;
   Projection projection_;
   Builder builder_;
-  bool keep_all_;
   std::unique_ptr<FacePlanesTable> planes_;
   std::unique_ptr<Texels> texels_;
 };

@@ -26,7 +26,7 @@ struct Mesh {
   std::vector<Corners> normal_corners;            ///< one a triangle into normals (kNoIndex: none), or empty
   std::vector<Corners> texture_corners;           ///< one a triangle into texture_coordinates, or empty
   std::vector<std::uint32_t> polygons;            ///< one a triangle: the file's face; empty: face i is triangle i
-  std::vector<std::uint32_t> triangle_materials;  ///< one a triangle into the materials, or empty: none
+  std::vector<std::uint32_t> triangle_materials;  ///< one a triangle into the materials (kNoIndex: none), or empty
 
   std::size_t face_count() const noexcept { return triangles.size(); }
 

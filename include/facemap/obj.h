@@ -12,6 +12,8 @@
 
 namespace facemap {
 
+class ObjReader;
+
 /// A Wavefront OBJ file. Wang 2022, sec. 4.3: the OBJ class, which loads a model file and turns it into faces.
 class OBJ {
  public:
@@ -61,6 +63,8 @@ class OBJ {
   std::vector<Face> faces() const;
 
  private:
+  explicit OBJ(ObjReader&& reader);
+
   Mesh mesh_;
   std::vector<Material> materials_;
   Report report_;

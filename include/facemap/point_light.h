@@ -43,6 +43,16 @@ class PointLight : public FaceMap {
 
   /// The second half alone: whether some face stands strictly between the light and the true point.
   bool is_blocked(const SurfacePoint& point, Counters* counters = nullptr) const;
+
+ private:
+  // Room for undecided faces without a heap allocation; longer lists take one.
+  static constexpr std::size_t kFewUndecided = 64;
+
+  PointLight(const Scene& scene, const SpaceVector& frame, const Options& options);
+
+  template <class Point>
+  bool is_blocked(const DVector& offset, const Point& point, std::uint32_t skip, bool exact_only,
+                  Counters* counters) const;
 };
 
 }  // namespace facemap

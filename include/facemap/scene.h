@@ -51,6 +51,8 @@ class Scene {
   double bounding_radius() const noexcept { return bounding_radius_; }
 
  private:
+  void find_bounds();
+
   Mesh mesh_;
   std::vector<Material> materials_;
   OBJ::Report report_;

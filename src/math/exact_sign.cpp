@@ -285,6 +285,14 @@ Tracked ray_parameter(const TruePoint& point) {
                  std::fabs(t) * Tracked::kHalfUlp + Tracked::kUnderflow};
 }
 
+double sharp_ray_parameter(const TruePoint& point, const Tracked& t) {
+  if (t.error <= 0x1p-30 * t.value) return t.value;
+  const Vec3<mpz_class> n = normal<mpz_class>(point.face);
+  mpq_class exact(determinant<mpz_class>(point.face, n, point.K), dot(n, vec<mpz_class>(point.d)));
+  exact.canonicalize();
+  return exact.get_d();
+}
+
 DVector offset_from(const Vector& L, const TruePoint& point, const Tracked& t) {
   const Vec3<Tracked> D = vec<Tracked>(point.K, L) + t * vec<Tracked>(point.d);
   if (is_sharp(D.x, D.y, D.z)) return {D.x.value, D.y.value, D.z.value};

@@ -1,0 +1,189 @@
+#include "map/cover.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "map/cone.h"
+#include "math/elementary.h"
+
+namespace facemap {
+namespace {
+
+constexpr double kHalfDiagonal = 0.70710678118654757;  // of a unit square, rounded up
+
+// Faces within this angle of the axis get a box of texels; the bulge and the map's scale grow without bound
+// towards the antipode (180 degrees).
+constexpr double kLargestBoxAngle = 2.6;
+
+// Longer edges than this (radians) are left to the blocks: their boxes would be mostly bulge.
+constexpr double kLongestBoxEdge = 0.5;
+
+// A plane projection's box needs every corner this far in front, as a share of its distance: 1/share^2 bounds
+// how much the projection stretches an angular error.
+constexpr double kForwardShare = 1.0 / 64;
+
+struct Box {
+  int x0, y0, x1, y1;  // texels, both ends inside
+
+  bool is_empty() const { return x0 > x1 || y0 > y1; }
+};
+
+class Builder {
+ public:
+  Builder(const SpaceVector& frame, const Projection& projection, double scale, Coverage& out)
+      : frame_(frame), projection_(projection), scale_(scale), out_(out) {
+    while (root_size_ < std::max(projection.width(), projection.height())) root_size_ *= 2;
+    for (int size = 1; size <= root_size_; size *= 2) radii_.emplace_back(block_cap_radius(projection, size));
+    raster_ = {0, 0, projection.width() - 1, projection.height() - 1};
+  }
+
+  void add(std::uint32_t id, const Triangle& face, int side) {
+    const Cone cone(face, side, frame_);
+    const std::optional<Box> box = box_of(cone);
+    const Box region = box ? clipped(*box) : raster_;
+    if (region.is_empty()) return;
+    if (region.x0 == region.x1 && region.y0 == region.y1) {
+      visit_texel(id, cone, region.x0, region.y0);
+    } else if (region.x1 - region.x0 < kSmallBox && region.y1 - region.y0 < kSmallBox) {
+      for (int y = region.y0; y <= region.y1; ++y) {
+        for (int x = region.x0; x <= region.x1; ++x) visit_texel(id, cone, x, y);
+      }
+    } else {
+      descend(id, cone, region, 0, 0, root_size_, static_cast<int>(radii_.size()) - 1);
+    }
+  }
+
+ private:
+  // Boxes up to this many texels a side are walked texel by texel; larger ones by blocks.
+  static constexpr int kSmallBox = 6;
+
+  Box clipped(const Box& b) const {
+    return {std::max(b.x0, raster_.x0), std::max(b.y0, raster_.y0), std::min(b.x1, raster_.x1),
+            std::min(b.y1, raster_.y1)};
+  }
+
+  // The box of the projected corners, grown by the bulge of the edges and by the map's error.
+  std::optional<Box> box_of(const Cone& cone) const {
+    const double tau = projection_.texel_angle();
+    const double angular_error = kDirectionError + 2 * Projection::kMapError;
+    double margin;
+    if (projection_.kind() == ProjectionKind::Surface) {
+      double farthest_beta = 0;
+      for (int i = 0; i < 3; ++i) {
+        const DVector& c = cone.corner(i);
+        farthest_beta =
+            std::max(farthest_beta, elementary::atan2(std::sqrt(c.x * c.x + c.y * c.y), c.z));
+      }
+      const double beta = farthest_beta + cone.longest_angle();
+      if (beta > kLargestBoxAngle || cone.longest_angle() > kLongestBoxEdge) return std::nullopt;
+      // Near beta the map stretches angles across the radius by beta / sin(beta).
+      const double stretch = beta > 0.01 ? beta / elementary::sin(beta) : 1.01;
+      margin = (bulge(cone.longest_angle(), beta) + angular_error * stretch) / tau;
+    } else {
+      for (int i = 0; i < 3; ++i) {
+        const DVector& c = cone.corner(i);
+        if (!(c.z > kForwardShare * std::sqrt(c.x * c.x + c.y * c.y + c.z * c.z))) return std::nullopt;
+      }
+      margin = angular_error / (kForwardShare * kForwardShare) / tau;
+    }
+    double x0 = HUGE_VAL, y0 = HUGE_VAL, x1 = -HUGE_VAL, y1 = -HUGE_VAL;
+    for (int i = 0; i < 3; ++i) {
+      const MapPoint p = projection_.map_from_local(cone.corner(i));
+      x0 = std::min(x0, p.x);
+      y0 = std::min(y0, p.y);
+      x1 = std::max(x1, p.x);
+      y1 = std::max(y1, p.y);
+    }
+    return Box{texel(x0 - margin), texel(y0 - margin), texel(x1 + margin), texel(y1 + margin)};
+  }
+
+  static int texel(double coordinate) {
+    constexpr double kFar = 1 << 20;  // texels: beyond any raster, within an int
+    return static_cast<int>(std::floor(std::clamp(coordinate, -kFar, kFar)));
+  }
+
+  // Quadtree of blocks, the root at (0, 0): a block goes on while the face may meet its cap.
+  void descend(std::uint32_t id, const Cone& cone, const Box& region, int x, int y, int size, int level) {
+    if (x > region.x1 || y > region.y1 || x + size <= region.x0 || y + size <= region.y0) return;
+    if (size == 1) {
+      visit_texel(id, cone, x, y);
+      return;
+    }
+    const Cone::Radius& radius = radii_[static_cast<std::size_t>(level)];
+    if (radius.is_small && !cone.may_meet(direction(x + size * 0.5, y + size * 0.5), radius)) return;
+    const int half = size / 2;
+    for (const auto& [dx, dy] : {std::pair{0, 0}, {half, 0}, {0, half}, {half, half}}) {
+      descend(id, cone, region, x + dx, y + dy, half, level - 1);
+    }
+  }
+
+  void visit_texel(std::uint32_t id, const Cone& cone, int x, int y) {
+    const MapPoint centre(x + 0.5, y + 0.5);
+    if (is_beyond_antipode(centre)) return;
+    const DVector c = projection_.local_from_map(centre);
+    if (!cone.may_meet(c, radii_[0])) return;
+    const auto texel = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(projection_.width()) +
+                       static_cast<std::uint32_t>(x);
+    out_.entries.push_back({texel, id});
+    if (cone.surely_covers(c, radii_[0])) {
+      out_.cuts[texel] = std::min(out_.cuts[texel], float_above(cone.farthest(c, radii_[0]) * scale_));
+    }
+  }
+
+  // Whether all of the texel lies more than 180 degrees from the axis, where no direction has its map point.
+  bool is_beyond_antipode(const MapPoint& centre) const {
+    if (projection_.kind() != ProjectionKind::Surface) return false;
+    const double dx = centre.x - projection_.width() * 0.5, dy = centre.y - projection_.height() * 0.5;
+    return (std::sqrt(dx * dx + dy * dy) - 1) * projection_.texel_angle() > elementary::kPi + Projection::kMapError;
+  }
+
+  DVector direction(double map_x, double map_y) const { return projection_.local_from_map({map_x, map_y}); }
+
+  const SpaceVector& frame_;
+  const Projection& projection_;
+  double scale_;
+  Coverage& out_;
+  int root_size_ = 1;
+  std::vector<Cone::Radius> radii_;  // by level: blocks of 1, 2, 4, ... texels
+  Box raster_;
+};
+
+}  // namespace
+
+double block_cap_radius(const Projection& projection, double side_texels) {
+  return projection.texel_angle() * side_texels * kHalfDiagonal * (1 + 0x1p-40) + kDirectionError +
+         2 * Projection::kMapError;
+}
+
+// The image x(s) of a great circle run through at unit speed has |x''|^2 = A^2 u^2 + 4 T^2 u (1 - u), where u is
+// the squared sine of its angle with the radius, A = beta / sin^2 beta - cot beta and T = (1 - beta cot beta) /
+// sin beta. A chord of an arc of length alpha is at most max |x''| alpha^2 / 8 from it. Over u the maximum is A^2
+// at u = 1 while A^2 >= 2 T^2 (up to about 107 degrees), 4 T^4 / (4 T^2 - A^2) beyond; both grow with beta.
+double bulge(double angle, double beta) {
+  double curvature;
+  if (beta < 0.1) {
+    curvature = 0.68 * beta;  // A = 2/3 beta + 4/45 beta^3 + ..., whose formula cancels near the axis
+  } else {
+    const double sine = elementary::sin(beta), cotangent = elementary::cos(beta) / sine;
+    const double A = beta / (sine * sine) - cotangent, T = (1 - beta * cotangent) / sine;
+    curvature = A * A >= 2 * T * T ? A : 2 * T * T / std::sqrt(4 * T * T - A * A);
+  }
+  return curvature * (1 + 0x1p-30) * angle * angle / 8;
+}
+
+Coverage cover_faces(const Scene& scene, const SpaceVector& frame, const Projection& projection,
+                     const FacePlanesTable& planes) {
+  Coverage coverage;
+  const auto texel_count = static_cast<std::size_t>(projection.width()) * static_cast<std::size_t>(projection.height());
+  coverage.cuts.assign(texel_count, std::numeric_limits<float>::infinity());
+  Builder builder(frame, projection, planes.scale(), coverage);
+  for (const std::uint32_t id : scene.kept_faces()) {
+    const int side = planes.side(id);
+    if (side != 0) builder.add(id, triangle_of(scene, id), side);
+  }
+  return coverage;
+}
+
+}  // namespace facemap

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include <facemap/projection.h>
+#include <facemap/scene.h>
+#include <facemap/space_vector.h>
+
+#include "map/face_planes.h"
+#include "map/texel_entry.h"
+
+namespace facemap {
+
+/// The exact builder: every texel that a face touches, never one too few.
+///
+/// Why it is a superset. A query direction D is handed to the map with an angular error of at most
+/// kDirectionError; its computed map point is the exact image of a direction at most Projection::kMapError
+/// farther. Both inverse projections never lengthen a path, so that direction lies within texel_angle sqrt(2)/2
+/// of the texel's centre direction c, and D within texel_cap_radius() of it. A texel is kept unless no direction
+/// of that cap hits the face (Cone::may_meet). Blocks of texels are the same with a larger cap.
+struct Coverage {
+  std::vector<TexelEntry> entries;  ///< in face order
+  std::vector<float> cuts;  ///< a texel: upper bound (map units) of the distance of a face that covers all of its cap
+};
+
+Coverage cover_faces(const Scene& scene, const SpaceVector& frame, const Projection& projection,
+                     const FacePlanesTable& planes);
+
+/// Angular radius of the cap that holds every direction whose computed map point lies in a block of
+/// `side_texels` squared texels, seen from the block's centre direction.
+double block_cap_radius(const Projection& projection, double side_texels);
+
+/// Largest distance, in radians of the map's scale, between the image of a great-circle edge of `angle` radians
+/// and the straight line between its ends' images, for an edge within `beta` (< pi) of the axis.
+double bulge(double angle, double beta);
+
+}  // namespace facemap

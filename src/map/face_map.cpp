@@ -1,0 +1,71 @@
+#include <facemap/face_map.h>
+
+#include <cmath>
+
+#include "map/cover.h"
+#include "map/face_planes.h"
+#include "map/fill.h"
+#include "map/texels.h"
+#include "simd/floating_point_mode.h"
+
+namespace facemap {
+namespace {
+
+Texels build_texels(const Scene& scene, const SpaceVector& frame, const Projection& projection,
+                    const FacePlanesTable& planes, Builder builder, bool keep_all) {
+  const auto texel_count = static_cast<std::size_t>(projection.width()) * static_cast<std::size_t>(projection.height());
+  if (builder == Builder::Fill) {
+    std::vector<TexelEntry> entries;
+    fill_faces(scene, frame, projection, entries);
+    return Texels(texel_count, entries, planes.nearest(), {});
+  }
+  Coverage coverage = cover_faces(scene, frame, projection, planes);
+  if (keep_all) coverage.cuts.clear();
+  return Texels(texel_count, coverage.entries, planes.nearest(), std::move(coverage.cuts));
+}
+
+}  // namespace
+
+FaceMap::FaceMap(const Scene& scene, const SpaceVector& frame, const Projection& projection, Builder builder,
+                 bool keep_all)
+    : SpaceVector(frame), scene_(&scene), projection_(projection), builder_(builder) {
+  const FloatingPointMode mode;
+  planes_ = std::make_unique<FacePlanesTable>(scene, position());
+  texels_ = std::make_unique<Texels>(build_texels(scene, *this, projection, *planes_, builder, keep_all));
+}
+
+FaceMap::~FaceMap() = default;
+FaceMap::FaceMap(FaceMap&&) noexcept = default;
+FaceMap& FaceMap::operator=(FaceMap&&) noexcept = default;
+
+int FaceMap::side(FaceId face) const { return planes_->side(static_cast<std::uint32_t>(face)); }
+
+std::span<const std::uint32_t> FaceMap::faces_at(int texel_x, int texel_y) const {
+  return texels_->faces_at(static_cast<std::size_t>(texel_y) * static_cast<std::size_t>(width()) +
+                           static_cast<std::size_t>(texel_x));
+}
+
+std::optional<FaceMap::Texel> FaceMap::texel_of(const DVector& direction) const {
+  const DVector local = local_from_world(direction);
+  if (!projection_.is_mapped(local)) return std::nullopt;
+  const MapPoint p = projection_.map_from_local(local);
+  if (!(p.x >= 0 && p.x < width() && p.y >= 0 && p.y < height())) return std::nullopt;
+  return Texel{static_cast<int>(p.x), static_cast<int>(p.y)};
+}
+
+int FaceMap::count_hits(const Vector& direction, Counters* counters) const {
+  const FloatingPointMode mode;
+  const std::optional<Texel> texel = texel_of(DVector(direction));
+  if (!texel) return 0;
+  int hits = 0;
+  for (const std::uint32_t id : faces_at(texel->x, texel->y)) {
+    if (covers(triangle_of(*scene_, id), planes_->side(id), position(), direction, counters).hit) ++hits;
+  }
+  return hits;
+}
+
+std::size_t FaceMap::memory_bytes() const noexcept { return planes_->memory_bytes() + texels_->memory_bytes(); }
+
+std::size_t FaceMap::entry_count() const noexcept { return texels_->entry_count(); }
+
+}  // namespace facemap

@@ -1,0 +1,43 @@
+#include <facemap/error.h>
+#include <facemap/renderer.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/elementary.h"
+
+namespace facemap {
+namespace {
+
+// A made-up camera steps no closer to the sphere's surface than this share of its radius: wide fields would
+// put it inside.
+constexpr double kClosestApproach = 0.05;
+
+constexpr int kMadeUpLights = 8;
+
+}  // namespace
+
+View make_up_view(const Scene& scene, const View& wanted) {
+  View view = wanted;
+  const DVector from(0.5, 0.6, 1);
+  const double radius = scene.bounding_radius();
+  const double half = std::min(wanted.field_angle / 2, elementary::kPi / 2);
+  const double distance = std::max(radius / elementary::sin(half), radius * (1 + kClosestApproach));
+  const double scale = distance / std::sqrt(from.x * from.x + from.y * from.y + from.z * from.z);
+  view.look_at = Vector(scene.centre());
+  view.position = Vector(scene.centre() + from * scale);
+  return view;
+}
+
+std::vector<Light> make_up_lights(const Scene& scene) {
+  std::vector<Light> lights;
+  const double r = scene.bounding_radius();
+  for (int k = 0; k < kMadeUpLights; ++k) {
+    const double a = 2 * elementary::kPi * k / kMadeUpLights;
+    const DVector offset(1.6 * elementary::cos(a), 1 + 0.3 * (k % 2), 1.6 * elementary::sin(a));
+    lights.push_back({Vector(scene.centre() + offset * r), Color{1, 1, 1}, 0.25f});
+  }
+  return lights;
+}
+
+}  // namespace facemap

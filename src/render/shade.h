@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <facemap/renderer.h>
+
+namespace facemap {
+
+/// What one ray of a picture brings back.
+struct Sample {
+  Color color;
+  FaceId face = kNoFace;
+  float depth = 0;                    ///< infinity if no face is hit
+  std::vector<std::uint8_t> lights;   ///< as Image::lights, one pixel
+};
+
+/// White mode: albedo 1; radiance = sum over lights, in index order, of colour * intensity * cos * falloff.
+class Shader {
+ public:
+  Shader(const Camera& camera, std::span<const PointLight> lights, const Renderer::Options& options,
+         Renderer::Statistics& statistics);
+
+  /// The sample along the ray through a map point; writes over `sample`, whose memory is used again.
+  void shade(const MapPoint& point, Sample& sample);
+
+ private:
+  struct Surface;
+  Surface surface_at(const Vector& direction, const Camera::Hit& hit) const;
+  bool is_lit(const PointLight& light, const Surface& surface);
+
+  const Camera& camera_;
+  std::span<const PointLight> lights_;
+  const Renderer::Options& options_;
+  Renderer::Statistics& statistics_;
+};
+
+}  // namespace facemap
