@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include <facemap/material.h>
+
+#include "scene/obj_warnings.h"
+
+namespace facemap {
+
+/// Reads MTL text and appends its materials. What cannot be read keeps its default, with a warning; statements
+/// that Material has no place for are read over.
+void parse_mtl(std::string_view text, ObjWarnings& warnings, std::vector<Material>& materials);
+
+}  // namespace facemap

@@ -1,0 +1,113 @@
+#include "scene/obj_faces.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace facemap {
+
+namespace {
+
+constexpr Corners kNoCorners = {kNoIndex, kNoIndex, kNoIndex};
+
+/// Appends `value` for each of `added` triangles to an array that stays empty while all values are `absent`.
+void append(std::vector<std::uint32_t>& values, std::size_t before, std::size_t added, std::uint32_t value,
+            std::uint32_t absent) {
+  if (values.empty()) {
+    if (value == absent) return;
+    values.assign(before, absent);
+  }
+  values.insert(values.end(), added, value);
+}
+
+/// Appends the fan of a polygon's indices to an array that stays empty while there are none.
+void append_fan(std::vector<Corners>& values, std::size_t before, std::span<const ObjCorner> corners,
+                std::uint32_t ObjCorner::*index) {
+  if (values.empty()) {
+    const auto is_absent = [index](const ObjCorner& corner) { return corner.*index == kNoIndex; };
+    if (std::all_of(corners.begin(), corners.end(), is_absent)) return;
+    values.assign(before, kNoCorners);
+  }
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    values.push_back({corners[0].*index, corners[i - 1].*index, corners[i].*index});
+  }
+}
+
+/// Corner `i` of a polygon that stands as a fan from `first` on.
+std::uint32_t fan_corner(const std::vector<Corners>& triangles, std::size_t first, std::size_t i) {
+  return i < 2 ? triangles[first][i] : triangles[first + i - 2][2];
+}
+
+}  // namespace
+
+void ObjFaces::add(std::span<const ObjCorner> corners, std::int64_t line, bool is_complete) {
+  const std::size_t first = mesh_.triangles.size();
+  const std::size_t added = corners.size() - 2;
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    mesh_.triangles.push_back({corners[0].vertex, corners[i - 1].vertex, corners[i].vertex});
+  }
+  append_fan(mesh_.texture_corners, first, corners, &ObjCorner::texture);
+  append_fan(mesh_.normal_corners, first, corners, &ObjCorner::normal);
+  append(mesh_.triangle_materials, first, added, material_, kNoIndex);
+  append(smoothing_groups_, first, added, smoothing_group_, 0);
+  add_polygon_ids(added);
+  if (corners.size() > 3) {
+    const Fan fan{first, corners.size(), line};
+    if (is_complete) {
+      cut(fan);
+    } else {
+      waiting_.push_back(fan);
+    }
+  }
+}
+
+void ObjFaces::add_polygon_ids(std::size_t triangle_count) {
+  std::vector<std::uint32_t>& polygons = mesh_.polygons;
+  if (polygons.empty() && triangle_count > 1) {
+    polygons.resize(polygon_count_);
+    std::iota(polygons.begin(), polygons.end(), 0u);
+  }
+  if (!polygons.empty() || triangle_count > 1) polygons.insert(polygons.end(), triangle_count, polygon_count_);
+  ++polygon_count_;
+}
+
+void ObjFaces::finish() {
+  for (const Fan& fan : waiting_) cut(fan);
+  waiting_.clear();
+}
+
+void ObjFaces::cut(const Fan& fan) {
+  positions_.clear();
+  for (std::size_t i = 0; i < fan.corner_count; ++i) {
+    positions_.push_back(mesh_.positions[fan_corner(mesh_.triangles, fan.first_triangle, i)]);
+  }
+  switch (cutter_.cut(positions_)) {
+    case PolygonCutter::Result::Fan:
+      return;
+    case PolygonCutter::Result::Cut:
+      break;
+    case PolygonCutter::Result::SelfIntersecting:
+      ++self_intersecting_;
+      warnings_.add(fan.line, "polygon crosses itself, made a fan");
+      return;
+    case PolygonCutter::Result::TooIntricate:
+      warnings_.add(fan.line, "polygon too intricate to be cut, made a fan");
+      return;
+  }
+  replace_fan(fan, mesh_.triangles);
+  if (!mesh_.texture_corners.empty()) replace_fan(fan, mesh_.texture_corners);
+  if (!mesh_.normal_corners.empty()) replace_fan(fan, mesh_.normal_corners);
+}
+
+/// Replaces the triangles of a fan by those that the cutter made.
+void ObjFaces::replace_fan(const Fan& fan, std::vector<Corners>& triangles) {
+  indices_.clear();
+  for (std::size_t i = 0; i < fan.corner_count; ++i) {
+    indices_.push_back(fan_corner(triangles, fan.first_triangle, i));
+  }
+  for (std::size_t i = 0; i + 2 < fan.corner_count; ++i) {
+    const Corners& cut = cutter_.triangles()[i];
+    triangles[fan.first_triangle + i] = {indices_[cut[0]], indices_[cut[1]], indices_[cut[2]]};
+  }
+}
+
+}  // namespace facemap

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <facemap/mesh.h>
+
+#include "scene/obj_warnings.h"
+#include "scene/polygon.h"
+
+namespace facemap {
+
+/// A corner of a face statement; indices count from 0.
+struct ObjCorner {
+  std::uint32_t vertex = kNoIndex;
+  std::uint32_t texture = kNoIndex;
+  std::uint32_t normal = kNoIndex;
+};
+
+/// Turns face statements into a mesh's flat arrays. Those beside the triangles stay empty while there is nothing
+/// to say in them.
+class ObjFaces {
+ public:
+  ObjFaces(Mesh& mesh, ObjWarnings& warnings) : mesh_(mesh), warnings_(warnings) {}
+
+  void set_material(std::uint32_t material) { material_ = material; }        ///< for faces to come
+  void set_smoothing_group(std::uint32_t group) { smoothing_group_ = group; }  ///< 0: none
+
+  /// Adds a face of 3 corners or more. `is_complete`: all its positions have been read; otherwise it is cut
+  /// into triangles by finish().
+  void add(std::span<const ObjCorner> corners, std::int64_t line, bool is_complete);
+
+  /// Cuts the polygons that had to wait. All indices must be in range by now.
+  void finish();
+
+  std::int64_t self_intersecting() const { return self_intersecting_; }
+
+  /// One a triangle, or empty: none has any.
+  const std::vector<std::uint32_t>& smoothing_groups() const { return smoothing_groups_; }
+
+ private:
+  /// A polygon that stands in the mesh as a fan.
+  struct Fan {
+    std::size_t first_triangle;
+    std::size_t corner_count;
+    std::int64_t line;
+  };
+
+  void add_corners(std::span<const ObjCorner> corners);
+  void add_polygon_ids(std::size_t triangle_count);
+  void cut(const Fan& fan);
+  void replace_fan(const Fan& fan, std::vector<Corners>& triangles);
+
+  Mesh& mesh_;
+  ObjWarnings& warnings_;
+  std::uint32_t material_ = kNoIndex;
+  std::uint32_t smoothing_group_ = 0;
+  std::uint32_t polygon_count_ = 0;
+  std::int64_t self_intersecting_ = 0;
+  std::vector<std::uint32_t> smoothing_groups_;
+  std::vector<Fan> waiting_;
+  PolygonCutter cutter_;
+  std::vector<Vector> positions_;        ///< of the polygon being cut
+  std::vector<std::uint32_t> indices_;   ///< the same
+};
+
+}  // namespace facemap

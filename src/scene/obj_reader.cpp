@@ -1,0 +1,259 @@
+#include "scene/obj_reader.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "scene/number.h"
+#include "scene/smooth_normals.h"
+
+namespace facemap {
+
+namespace {
+
+const Vector kWhite(1);
+
+/// The end of the line, or a comment behind a statement.
+bool at_end(const char* at) { return *at == '\n' || *at == '#'; }
+
+std::string_view token_at(const char* at) { return {at, static_cast<std::size_t>(skip_token(at) - at)}; }
+
+std::string quoted(std::string_view text) { return "\"" + printable(text) + "\""; }
+
+}  // namespace
+
+ObjReader::ObjReader(std::string_view text, std::string name, const std::filesystem::path& directory,
+                     const OBJ::Limits& limits)
+    : name_(std::move(name)),
+      limits_(limits),
+      lines_(text),
+      warnings_(name_),
+      mtl_(directory, limits.max_bytes),
+      faces_(mesh, warnings_) {}
+
+void ObjReader::read() {
+  while (lines_.next()) read_statement();
+}
+
+void ObjReader::read_statement() {
+  const char* const at = skip_blanks(lines_.begin());
+  if (at[0] == 'v') {
+    if (ends_token(at[1])) return read_vertex(at + 1);
+    if (at[1] == 'n' && ends_token(at[2])) return read_normal(at + 2);
+    if (at[1] == 't' && ends_token(at[2])) return read_texture_coordinates(at + 2);
+  }
+  if (at[0] == 'f' && ends_token(at[1])) return read_face(at + 1);
+  if (!at_end(at)) read_other_statement(at);
+}
+
+void ObjReader::read_other_statement(const char* at) {
+  const std::string_view keyword = token_at(at);
+  at += keyword.size();
+  if (keyword == "usemtl") {
+    faces_.set_material(mtl_.use(rest_of_line(at), lines_.number()));
+  } else if (keyword == "mtllib") {
+    mtl_.read_libraries(rest_of_line(at), lines_.number(), warnings_);
+  } else if (keyword == "s") {
+    read_smoothing_group(at);
+  } else if (keyword == "o") {
+    ++report.objects;
+  } else if (keyword == "g") {
+    ++report.groups;
+  } else {
+    ignore(keyword);
+  }
+}
+
+void ObjReader::read_vertex(const char* at) {
+  Vector position;
+  at = read_float(at, position.x);
+  at = read_float(at, position.y);
+  at = read_float(at, position.z);
+  mesh.positions.push_back(position);
+  at = skip_blanks(at);
+  if (!at_end(at)) {
+    read_colour(at);
+  } else if (!mesh.colours.empty()) {
+    mesh.colours.push_back(kWhite);
+  }
+}
+
+/// Reads what follows a position: the weight w of free-form geometry, a colour, or the one and the other.
+void ObjReader::read_colour(const char* at) {
+  float extras[4];
+  const int count = read_floats(at, extras, 4);
+  if (count == 2) warnings_.add(lines_.number(), "v with 5 numbers, the last two ignored");
+  if (count < 3) {
+    if (!mesh.colours.empty()) mesh.colours.push_back(kWhite);
+    return;
+  }
+  const float* const rgb = extras + count - 3;
+  const Vector colour(rgb[0], rgb[1], rgb[2]);
+  const Vector clamped(std::clamp(colour.x, 0.0f, 1.0f), std::clamp(colour.y, 0.0f, 1.0f),
+                       std::clamp(colour.z, 0.0f, 1.0f));
+  if (clamped != colour) warnings_.add(lines_.number(), "vertex colour outside 0..1, clamped");
+  mesh.colours.resize(mesh.positions.size() - 1, kWhite);
+  mesh.colours.push_back(clamped);
+}
+
+void ObjReader::read_normal(const char* at) {
+  Vector normal;
+  at = read_float(at, normal.x);
+  at = read_float(at, normal.y);
+  at = read_float(at, normal.z);
+  mesh.normals.push_back(normal);
+  read_floats(skip_blanks(at), nullptr, 0);
+}
+
+void ObjReader::read_texture_coordinates(const char* at) {
+  glm::vec2 coordinates(0);
+  at = skip_blanks(read_float(at, coordinates.x));
+  if (!at_end(at)) at = skip_blanks(read_float(at, coordinates.y));
+  mesh.texture_coordinates.push_back(coordinates);
+  float depth;
+  if (!at_end(at)) read_floats(at, &depth, 1);
+}
+
+void ObjReader::read_face(const char* at) {
+  corners_.clear();
+  is_complete_ = true;
+  for (at = skip_blanks(at); !at_end(at); at = skip_blanks(at)) at = read_corner(at, corners_.emplace_back());
+  if (corners_.size() < 3) fail(LoadError::Cause::TruncatedStatement, "face of fewer than 3 corners");
+  if (mesh.triangles.size() + corners_.size() - 2 > limits_.max_faces) {
+    fail(LoadError::Cause::TooLarge, "more than " + std::to_string(limits_.max_faces) + " triangles");
+  }
+  ++report.polygons;
+  faces_.add(corners_, lines_.number(), is_complete_);
+}
+
+/// Reads v, v/t, v//n or v/t/n.
+const char* ObjReader::read_corner(const char* const start, ObjCorner& corner) {
+  const char* at = read_index(start, mesh.positions.size(), vertex_indices_, corner.vertex);
+  if (*at == '/') {
+    ++at;
+    if (*at != '/' && !ends_token(*at)) {
+      at = read_index(at, mesh.texture_coordinates.size(), texture_indices_, corner.texture);
+    }
+    if (*at == '/') {
+      ++at;
+      if (!ends_token(*at)) at = read_index(at, mesh.normals.size(), normal_indices_, corner.normal);
+    }
+  }
+  if (!ends_token(*at)) fail_number(start);
+  return at;
+}
+
+const char* ObjReader::read_index(const char* const start, std::size_t count, IndexKind& kind, std::uint32_t& index) {
+  std::int64_t written;
+  const char* const at = scan_index(start, written);
+  if (at == nullptr) fail_number(start);
+  const auto known = static_cast<std::int64_t>(count);
+  if (written < 0 && -written <= known) {
+    index = static_cast<std::uint32_t>(known + written);
+  } else if (written > 0) {
+    index = static_cast<std::uint32_t>(written - 1);
+    if (written > known) note_forward(written, kind);
+  } else {
+    fail(LoadError::Cause::BadIndex, "face refers to " + std::string(kind.noun) + " " + std::to_string(written) +
+                                         ", with " + std::to_string(known) + " before it");
+  }
+  return at;
+}
+
+void ObjReader::note_forward(std::int64_t index, IndexKind& kind) {
+  if (kind.forward.empty() || index > kind.forward.back().index) kind.forward.push_back({index, lines_.number()});
+  is_complete_ = false;
+}
+
+void ObjReader::check_forward(const IndexKind& kind, std::size_t count) const {
+  for (const ForwardIndex& forward : kind.forward) {
+    if (forward.index > static_cast<std::int64_t>(count)) {
+      throw LoadError(LoadError::Cause::BadIndex, name_, forward.line,
+                      "face refers to " + std::string(kind.noun) + " " + std::to_string(forward.index) + " of " +
+                          std::to_string(count));
+    }
+  }
+}
+
+void ObjReader::read_smoothing_group(const char* at) {
+  const std::string_view group = rest_of_line(at);
+  std::int64_t number = 0;
+  const bool is_off = group.empty() || group == "off";
+  if (!is_off) {
+    const char* const end = scan_index(group.data(), number);
+    if (end != group.data() + group.size() || number < 0 || number > UINT32_MAX) {
+      warnings_.add(lines_.number(), "smoothing group is not a number, taken for off", group);
+      number = 0;
+    }
+  }
+  faces_.set_smoothing_group(static_cast<std::uint32_t>(number));
+}
+
+const char* ObjReader::read_float(const char* at, float& value) {
+  at = skip_blanks(at);
+  const char* const end = scan_float(at, value);
+  if (end == nullptr) fail_number(at);
+  return end;
+}
+
+/// Reads the numbers up to the end of the line and keeps `most` of them; more are a warning. Returns how many
+/// were kept.
+int ObjReader::read_floats(const char* at, float* values, int most) {
+  int count = 0;
+  for (; !at_end(at); at = skip_blanks(at)) {
+    float value;
+    at = read_float(at, value);
+    if (count < most) {
+      values[count++] = value;
+    } else {
+      warnings_.add(lines_.number(), "more numbers than the statement has, ignored");
+    }
+  }
+  return count;
+}
+
+void ObjReader::ignore(std::string_view keyword) {
+  constexpr std::size_t kMaxKeywords = 64;
+  constexpr const char* kOtherKeywords = "(others)";
+  const std::string statement = printable(keyword);
+  for (OBJ::Ignored& ignored : report.ignored) {
+    if (ignored.statement == statement || ignored.statement == kOtherKeywords) {
+      ++ignored.count;
+      return;
+    }
+  }
+  const bool is_last = report.ignored.size() + 1 == kMaxKeywords;
+  report.ignored.push_back({is_last ? kOtherKeywords : statement, 1, lines_.number()});
+}
+
+void ObjReader::finish() {
+  report.vertices = static_cast<std::int64_t>(mesh.positions.size());
+  report.texture_coordinates = static_cast<std::int64_t>(mesh.texture_coordinates.size());
+  report.normals = static_cast<std::int64_t>(mesh.normals.size());
+  report.triangles = static_cast<std::int64_t>(mesh.triangles.size());
+  if (std::max({report.vertices, report.texture_coordinates, report.normals}) >= std::int64_t{kNoIndex}) {
+    throw LoadError(LoadError::Cause::TooLarge, name_, 0, "more than 2^32 - 2 vertices");
+  }
+  check_forward(vertex_indices_, mesh.positions.size());
+  check_forward(texture_indices_, mesh.texture_coordinates.size());
+  check_forward(normal_indices_, mesh.normals.size());
+  if (mesh.triangles.empty()) throw LoadError(LoadError::Cause::NoFaces, name_, 0, "no faces");
+
+  faces_.finish();
+  report.self_intersecting_polygons = faces_.self_intersecting();
+  if (!faces_.smoothing_groups().empty()) add_smooth_normals(mesh, faces_.smoothing_groups());
+  mtl_.resolve(mesh.triangle_materials, warnings_);
+  materials = std::move(mtl_.materials());
+  warnings_.append_to(report.warnings);
+  report.warnings.insert(report.warnings.end(), mtl_.warnings().begin(), mtl_.warnings().end());
+}
+
+void ObjReader::fail(LoadError::Cause cause, const std::string& reason) const {
+  throw LoadError(cause, name_, lines_.number(), reason);
+}
+
+void ObjReader::fail_number(const char* token) const {
+  if (at_end(token)) fail(LoadError::Cause::TruncatedStatement, "a number is missing");
+  fail(LoadError::Cause::BadNumber, "not a number that a float can hold: " + quoted(token_at(token)));
+}
+
+}  // namespace facemap

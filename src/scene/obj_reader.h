@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <facemap/error.h>
+#include <facemap/mesh.h>
+#include <facemap/obj.h>
+
+#include "scene/obj_faces.h"
+#include "scene/obj_lines.h"
+#include "scene/obj_materials.h"
+#include "scene/obj_warnings.h"
+
+namespace facemap {
+
+/// Reads the statements of an OBJ text, one line after the other, into a mesh.
+class ObjReader {
+ public:
+  ObjReader(std::string_view text, std::string name, const std::filesystem::path& directory,
+            const OBJ::Limits& limits);
+
+  /// Reads all statements. Throws LoadError, as does finish().
+  void read();
+
+  /// Checks what only the whole file can show and completes the members below; the text is not needed any more.
+  void finish();
+
+  Mesh mesh;
+  std::vector<Material> materials;
+  OBJ::Report report;
+
+ private:
+  /// A positive index may name what comes later in the file. Those that go further ahead than any before are
+  /// kept: the first of them that is too large in the end is the first wrong index of the file.
+  struct ForwardIndex {
+    std::int64_t index;  ///< from 1
+    std::int64_t line;
+  };
+  struct IndexKind {
+    const char* noun;
+    std::vector<ForwardIndex> forward;
+  };
+
+  void read_statement();
+  void read_other_statement(const char* at);
+  void read_vertex(const char* at);
+  void read_colour(const char* at);
+  void read_normal(const char* at);
+  void read_texture_coordinates(const char* at);
+  void read_face(const char* at);
+  void read_smoothing_group(const char* at);
+  const char* read_corner(const char* at, ObjCorner& corner);
+  const char* read_index(const char* at, std::size_t count, IndexKind& kind, std::uint32_t& index);
+  const char* read_float(const char* at, float& value);
+  int read_floats(const char* at, float* values, int most);
+  void note_forward(std::int64_t index, IndexKind& kind);
+  void ignore(std::string_view keyword);
+  void check_forward(const IndexKind& kind, std::size_t count) const;
+
+  [[noreturn]] void fail(LoadError::Cause cause, const std::string& reason) const;
+  [[noreturn]] void fail_number(const char* token) const;
+
+  std::string name_;
+  OBJ::Limits limits_;
+  ObjLines lines_;
+  ObjWarnings warnings_;
+  ObjMaterials mtl_;
+  ObjFaces faces_;
+  std::vector<ObjCorner> corners_;  ///< of the face being read
+  bool is_complete_ = true;         ///< no index of the face being read points forward
+  IndexKind vertex_indices_{"vertex", {}};
+  IndexKind texture_indices_{"texture coordinate", {}};
+  IndexKind normal_indices_{"normal", {}};
+};
+
+}  // namespace facemap

@@ -1,0 +1,195 @@
+#include "scene/polygon.h"
+
+#include <algorithm>
+
+#include <cmath>
+
+namespace facemap {
+
+namespace {
+
+/// The coordinate to drop: the one along which the polygon's plane is steepest. Areas by Newell's sum; where they
+/// vanish in rounding (a figure of eight), the sum of their parts' magnitudes tells.
+int dropped_coordinate(std::span<const Vector> corners) {
+  DVector area(0), magnitude(0);
+  const DVector origin(corners[0]);
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    const DVector a = DVector(corners[i - 1]) - origin, b = DVector(corners[i]) - origin;
+    const DVector left(a.y * b.z, a.z * b.x, a.x * b.y), right(a.z * b.y, a.x * b.z, a.y * b.x);
+    for (int k = 0; k < 3; ++k) {
+      area[k] += left[k] - right[k];
+      magnitude[k] += std::abs(left[k]) + std::abs(right[k]);
+    }
+  }
+  const auto largest = [](const DVector& v) {
+    const int of_two = std::abs(v.x) > std::abs(v.y) ? 0 : 1;
+    return std::abs(v[of_two]) > std::abs(v.z) ? of_two : 2;
+  };
+  const double rounding = 2 * (static_cast<double>(corners.size()) + 4) * 0x1p-53;
+  const int k = largest(area);
+  return std::abs(area[k]) > rounding * magnitude[k] ? k : largest(magnitude);
+}
+
+/// Whether the inner parts of two edges cross in one point.
+bool cross(PlanePoint a, PlanePoint b, PlanePoint c, PlanePoint d) {
+  return orientation(a, b, c) * orientation(a, b, d) < 0 && orientation(c, d, a) * orientation(c, d, b) < 0;
+}
+
+}  // namespace
+
+PolygonCutter::Result PolygonCutter::cut(std::span<const Vector> corners) {
+  // Ears of a polygon of n corners take n^2 tests at worst where the polygon is plain, n^3 where it is hostile.
+  constexpr std::int64_t kWorkPerCorner = 1024;
+  work_left_ = kWorkPerCorner * static_cast<std::int64_t>(corners.size());
+  project(corners);
+  if (is_strictly_convex()) return Result::Fan;
+  if (crosses_itself()) return Result::SelfIntersecting;
+  const Result result = clip_ears();
+  return work_left_ > 0 ? result : Result::TooIntricate;
+}
+
+void PolygonCutter::project(std::span<const Vector> corners) {
+  const int dropped = dropped_coordinate(corners);
+  const int x = dropped == 0 ? 1 : 0, y = dropped == 2 ? 1 : 2;
+  points_.clear();
+  for (const Vector& corner : corners) points_.push_back({corner[x], corner[y]});
+
+  const auto [left, right] = std::minmax_element(points_.begin(), points_.end(), [](auto a, auto b) { return a.x < b.x; });
+  const auto [low, high] = std::minmax_element(points_.begin(), points_.end(), [](auto a, auto b) { return a.y < b.y; });
+  if (static_cast<double>(high->y) - low->y > static_cast<double>(right->x) - left->x) {
+    for (PlanePoint& point : points_) std::swap(point.x, point.y);
+  }
+  if (orientation(points_) < 0) {
+    for (PlanePoint& point : points_) point.y = -point.y;
+  }
+}
+
+/// All corners turn left, and the polygon goes right and back left but once (a pentagram does so twice).
+bool PolygonCutter::is_strictly_convex() const {
+  const std::size_t n = points_.size();
+  const auto goes_right = [&](std::size_t i) {
+    const PlanePoint a = points_[i], b = points_[(i + 1) % n];
+    return a.x < b.x || (a.x == b.x && a.y < b.y);
+  };
+  int reversals = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (orientation(points_[i], points_[(i + 1) % n], points_[(i + 2) % n]) <= 0) return false;
+    reversals += goes_right(i) != goes_right((i + 1) % n);
+  }
+  return reversals == 2;
+}
+
+bool PolygonCutter::crosses_itself() {
+  const auto n = static_cast<std::uint32_t>(points_.size());
+  const auto end_of = [n](std::uint32_t edge) { return edge + 1 == n ? 0 : edge + 1; };
+  const auto left_of = [&](std::uint32_t edge) { return std::min(points_[edge].x, points_[end_of(edge)].x); };
+  order_.clear();
+  for (std::uint32_t edge = 0; edge < n; ++edge) order_.push_back(edge);
+  std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return left_of(a) != left_of(b) ? left_of(a) < left_of(b) : a < b;
+  });
+
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const PlanePoint a = points_[order_[i]], b = points_[end_of(order_[i])];
+    for (std::uint32_t j = i + 1; j < n && left_of(order_[j]) <= std::max(a.x, b.x); ++j) {
+      if (--work_left_ <= 0) return false;
+      if (cross(a, b, points_[order_[j]], points_[end_of(order_[j])])) return true;
+    }
+  }
+  return false;
+}
+
+PolygonCutter::Result PolygonCutter::clip_ears() {
+  left_ = static_cast<std::uint32_t>(points_.size());
+  next_.resize(left_);
+  previous_.resize(left_);
+  for (std::uint32_t i = 0; i < left_; ++i) {
+    next_[i] = i + 1 == left_ ? 0 : i + 1;
+    previous_[i] = i == 0 ? left_ - 1 : i - 1;
+  }
+  triangles_.clear();
+  find_blockers();
+  at_ = 1;
+  while (left_ > 3) {
+    if (!clip_some_ear() && !clip_some_flat_corner()) return Result::SelfIntersecting;  // or out of work
+  }
+  if (turn_at(at_) < 0) return Result::SelfIntersecting;
+  triangles_.push_back({previous_[at_], at_, next_[at_]});
+  return Result::Cut;
+}
+
+/// If any corner lies in an ear, one that does not turn left does; and clipping makes no new ones of these.
+void PolygonCutter::find_blockers() {
+  order_.clear();
+  for (std::uint32_t i = 0; i < left_; ++i) {
+    if (turn_at(i) <= 0) order_.push_back(i);
+  }
+  std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return points_[a].x != points_[b].x ? points_[a].x < points_[b].x : a < b;
+  });
+}
+
+bool PolygonCutter::clip_some_ear() {
+  for (std::uint32_t tried = 0; tried < left_; ++tried, at_ = next_[at_]) {
+    if (--work_left_ <= 0) return false;
+    if (is_ear(at_)) {
+      clip(at_);
+      return true;
+    }
+  }
+  return false;
+}
+
+bool PolygonCutter::clip_some_flat_corner() {
+  for (std::uint32_t tried = 0; tried < left_; ++tried, at_ = next_[at_]) {
+    if (--work_left_ <= 0) return false;
+    if (turn_at(at_) == 0) {
+      clip(at_);
+      return true;
+    }
+  }
+  return false;
+}
+
+bool PolygonCutter::is_ear(std::uint32_t corner) {
+  if (turn_at(corner) <= 0) return false;
+  const float a = points_[previous_[corner]].x, b = points_[corner].x, c = points_[next_[corner]].x;
+  const float left = std::min({a, b, c}), right = std::max({a, b, c});
+  auto blocker = std::lower_bound(order_.begin(), order_.end(), left,
+                                  [&](std::uint32_t i, float x) { return points_[i].x < x; });
+  for (; blocker != order_.end() && points_[*blocker].x <= right; ++blocker) {
+    if (--work_left_ <= 0) return false;
+    if (blocks(*blocker, corner)) return false;
+  }
+  return true;
+}
+
+/// Whether a corner that is left lies in the closed triangle about `corner`. One that coincides with a corner of
+/// the triangle blocks only if the outline goes from there into the triangle.
+bool PolygonCutter::blocks(std::uint32_t blocker, std::uint32_t corner) const {
+  const std::uint32_t before = previous_[corner], after = next_[corner];
+  if (next_[blocker] == kNoIndex || blocker == before || blocker == corner || blocker == after) return false;
+  const PlanePoint a = points_[before], b = points_[corner], c = points_[after], p = points_[blocker];
+  if (p == a || p == c) return false;
+  if (p == b) {
+    const auto goes_inside = [&](PlanePoint q) { return orientation(a, b, q) > 0 && orientation(b, c, q) > 0; };
+    return goes_inside(points_[next_[blocker]]) || goes_inside(points_[previous_[blocker]]);
+  }
+  return orientation(a, b, p) >= 0 && orientation(b, c, p) >= 0 && orientation(c, a, p) >= 0;
+}
+
+int PolygonCutter::turn_at(std::uint32_t corner) const {
+  return orientation(points_[previous_[corner]], points_[corner], points_[next_[corner]]);
+}
+
+void PolygonCutter::clip(std::uint32_t corner) {
+  const std::uint32_t before = previous_[corner], after = next_[corner];
+  triangles_.push_back({before, corner, after});
+  next_[before] = after;
+  previous_[after] = before;
+  next_[corner] = kNoIndex;
+  --left_;
+  at_ = after;
+}
+
+}  // namespace facemap
