@@ -35,7 +35,8 @@ class Projection {
   bool is_mapped(const DVector& local) const noexcept;
 
   /// Map point of a local direction that is_mapped, of any length. It may lie outside the raster.
-  /// Surface: Wang 2022, eq. (13) to (16); on the axis the centre, at the antipode some point of the rim.
+  /// Surface: Wang 2022, eq. (13) to (16); on the axis the centre, at the antipode some point of the rim,
+  /// strictly inside the raster at 360 degrees.
   MapPoint map_from_local(const DVector& local) const noexcept;
 
   /// Unit local direction of a map point. Surface: Wang 2022, eq. (17) to (22); beyond 180 degrees from the

@@ -9,6 +9,11 @@
 namespace facemap {
 namespace {
 
+// The antipode's image is the whole rim, which touches the raster's border at 360 degrees. Angles are kept this
+// share of pi short of it, so that the map point of every direction lies strictly inside; well below kMapError.
+constexpr double kRimShare = 0x1p-50;
+constexpr double kLargestBeta = elementary::kPi * (1 - kRimShare);
+
 constexpr int kLargestSize = 32768;  // texels; keeps a texel's number within 32 bits
 
 }  // namespace
@@ -42,7 +47,7 @@ MapPoint Projection::map_from_local(const DVector& local) const noexcept {
   }
   // Departs: eq. (13) takes beta from an arccosine, which loses digits near the axis.
   const double distance = std::sqrt(local.x * local.x + local.y * local.y);
-  const double beta = elementary::atan2(distance, local.z);
+  const double beta = std::min(elementary::atan2(distance, local.z), kLargestBeta);
   const double t = beta / texel_angle_;  // eq. (14): 2 beta / theta * R
   // Departs: eq. (15) is 0/0 on the axis; there any direction in the map serves.
   const double kx = distance > 0 ? local.x / distance : 1;
