@@ -59,4 +59,9 @@ std::uint32_t Color::to_24_bit() const {
   return table.level(r) << 16 | table.level(g) << 8 | table.level(b);
 }
 
+Color Color::from_24_bit(std::uint32_t rgb) {
+  const auto channel = [rgb](int shift) { return static_cast<float>(linear_from_srgb((rgb >> shift & 255) / 255.0)); };
+  return {channel(16), channel(8), channel(0)};
+}
+
 }  // namespace facemap

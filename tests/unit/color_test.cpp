@@ -66,6 +66,13 @@ TEST(Color, ChannelsStandInTheirPlaces) {
   EXPECT_EQ((Color{0.2158605f, 0, 1}).to_24_bit(), 0x8000ffu);
 }
 
+TEST(Color, EveryLevelComesBack) {
+  for (std::uint32_t level = 0; level < 256; ++level) {
+    const std::uint32_t rgb = level << 16 | (255 - level) << 8 | (level * 7 & 255);
+    EXPECT_EQ(Color::from_24_bit(rgb).to_24_bit(), rgb);
+  }
+}
+
 TEST(Color, AddsSubtractsAndMultiplies) {
   const Color a{1, 2, 3}, b{0.5f, 0.25f, 2};
   EXPECT_EQ(a + b, (Color{1.5f, 2.25f, 5}));

@@ -1,0 +1,74 @@
+#include <iomanip>
+#include <iostream>
+#include <memory>
+
+#include "commands.h"
+#include "model.h"
+#include "text_values.h"
+
+namespace facemap::program {
+namespace {
+
+struct InfoArguments {
+  std::filesystem::path model;
+};
+
+template <typename Value>
+void row(const char* name, const Value& value, const char* what = "") {
+  std::cout << "  " << std::left << std::setw(14) << name << value << what << '\n';
+}
+
+void print_oddities(const Scene& scene) {
+  const OddFaces& odd = scene.odd_faces();
+  const OBJ::Report& report = scene.report();
+  if (odd.zero_area) row("left out", odd.zero_area, " faces of zero area");
+  if (odd.repeated_vertex) row("left out", odd.repeated_vertex, " faces that name a vertex twice");
+  if (odd.duplicate) row("left out", odd.duplicate, " faces that repeat another's positions");
+  if (report.self_intersecting_polygons)
+    row("fans", report.self_intersecting_polygons, " polygons that cross themselves");
+  for (const OBJ::Ignored& ignored : report.ignored) {
+    row("ignored", ignored.statement + ", " + std::to_string(ignored.count) + " times, first in line " +
+                       std::to_string(ignored.first_line));
+  }
+  for (const std::string& warning : report.warnings) row("warning", warning);
+}
+
+void print_info(const InfoArguments& arguments) {
+  const Scene scene = load_model(arguments.model, true);
+  const OBJ::Report& report = scene.report();
+  std::cout << arguments.model.string() << '\n';
+  row("vertices", report.vertices);
+  row("normals", report.normals);
+  row("texture", report.texture_coordinates, " coordinates");
+  row("polygons", report.polygons);
+  row("triangles", scene.face_count());
+  row("kept", scene.kept_faces().size(), " triangles that take part in pictures");
+  row("objects", report.objects);
+  row("groups", report.groups);
+  row("materials", scene.materials().size());
+  row("box from", text_of(scene.lower()));
+  row("box to", text_of(scene.upper()));
+  row("centre", text_of(Vector(scene.centre())));
+  row("radius", text_of(static_cast<float>(scene.bounding_radius())));
+  print_oddities(scene);
+  std::cout << std::flush;
+}
+
+}  // namespace
+
+Command info_command() {
+  const auto arguments = std::make_shared<InfoArguments>();
+  Command command;
+  command.name = "info";
+  command.summary = "Say what is in a model, and what is odd in it";
+  command.text =
+      "Counts, bounds, faces that are left out of pictures and why, statements that were read over, warnings.\n"
+      "Faces left out keep their numbers: nothing is renumbered.\n";
+  command.options = {{"MODEL", "", "", "the model: a Wavefront OBJ file",
+                      into(arguments->model, [](const std::string& text) { return std::filesystem::path(text); })}};
+  command.examples = {{"facemap info model.obj", "what is in this file?"}};
+  command.run = [arguments] { print_info(*arguments); };
+  return command;
+}
+
+}  // namespace facemap::program

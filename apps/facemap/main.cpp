@@ -1,0 +1,52 @@
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "commands.h"
+#include "interrupt.h"
+#include "usage_error.h"
+
+namespace facemap::program {
+
+std::vector<Command> all_commands() { return {render_command(), info_command(), map_command(), scene_command()}; }
+
+namespace {
+
+constexpr int kDone = 0, kFailed = 1, kWrongUsage = 2;
+
+int complain(const char* reason, int exit_code) {
+  std::cerr << "facemap: " << reason << std::endl;
+  return exit_code;
+}
+
+int run(int argc, const char* const* argv) {
+  const std::vector<Command> commands = all_commands();
+  std::string answer;
+  const Command* command = parse_command_line(commands, argc, argv, answer);
+  if (command) {
+    command->run();
+  } else {
+    std::cout << answer;
+  }
+  std::cout.flush();
+  return std::cout ? kDone : complain("standard output: cannot write", kFailed);
+}
+
+}  // namespace
+}  // namespace facemap::program
+
+int main(int argc, char** argv) {
+  using namespace facemap::program;
+  try {
+    catch_signals();
+    return run(argc, argv);
+  } catch (const Interrupted& interrupted) {
+    return 128 + interrupted.signal;
+  } catch (const UsageError& error) {
+    return complain(error.what(), kWrongUsage);
+  } catch (const std::bad_alloc&) {
+    return complain("not enough memory", kFailed);
+  } catch (const std::exception& error) {
+    return complain(error.what(), kFailed);
+  }
+}

@@ -1,0 +1,141 @@
+#include "options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
+
+#include "help.h"
+#include "usage_error.h"
+
+namespace facemap::program {
+namespace {
+
+/// The words that followed each option, as typed.
+using Words = std::map<const Option*, std::vector<std::string>>;
+
+void add_to_parser(const Option& option, CLI::App& parser, Words& words) {
+  if (option.value.empty() && !option.is_argument()) {
+    parser.add_flag_callback(option.flags, [&option, &words] { words[&option].emplace_back(); });
+  } else {
+    // One word each time the flag stands there: a list of words would swallow the model's name.
+    parser.add_option(option.flags, words[&option])->allow_extra_args(false);
+  }
+}
+
+/// Number of letters to insert, drop or replace to get from one word to the other.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+/// "; did you mean X?" for the known word nearest to `word`, or nothing if none is near.
+std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
+  constexpr std::size_t kNear = 3;
+  std::size_t best = kNear + 1;
+  std::string nearest;
+  for (const std::string& candidate : known) {
+    const bool is_beginning = word.size() > 3 && candidate.starts_with(word);
+    const std::size_t distance = is_beginning ? 0 : edit_distance(word, candidate);
+    if (distance < best && distance < candidate.size() / 2) {
+      best = distance;
+      nearest = candidate;
+    }
+  }
+  return nearest.empty() ? "" : "; did you mean " + nearest + "?";
+}
+
+std::vector<std::string> long_flags(const Command& command) {
+  std::vector<std::string> flags{"--help"};
+  for (const Option& option : command.options) {
+    const std::size_t start = option.flags.find("--");
+    if (start != std::string::npos) flags.push_back(option.flags.substr(start));
+  }
+  return flags;
+}
+
+[[noreturn]] void refuse_word(const Command& command, const std::string& word) {
+  const std::string hint = "\nTry 'facemap " + command.name + " --help'.";
+  if (!word.starts_with('-')) throw UsageError("unexpected argument '" + word + "'" + hint);
+  const std::string flag = word.substr(0, word.find('='));
+  throw UsageError("unknown option " + flag + suggestion(flag, long_flags(command)) + hint);
+}
+
+[[noreturn]] void refuse_command(const std::vector<Command>& commands, const std::string& word) {
+  std::vector<std::string> names;
+  for (const Command& command : commands) names.push_back(command.name);
+  std::string hint = suggestion(word, names);
+  if (word.ends_with(".obj")) hint = "; did you mean facemap render " + word + "?";
+  throw UsageError("unknown " + std::string(word.starts_with('-') ? "option " : "command ") + word + hint +
+                   "\nTry 'facemap --help'.");
+}
+
+void set_options(const Command& command, const Words& words) {
+  for (const Option& option : command.options) {
+    const auto found = words.find(&option);
+    if (found == words.end()) continue;
+    const std::string name = option.flags.substr(option.flags.find(',') + 1);
+    if (found->second.size() > 1 && !option.repeats) throw UsageError(name + " is given more than once");
+    for (const std::string& word : found->second) {
+      try {
+        option.set(word);
+      } catch (const UsageError& error) {
+        throw UsageError(name + ": " + error.what());
+      }
+    }
+  }
+}
+
+void parse_options(const Command& command, int argc, const char* const* argv) {
+  Words words;
+  CLI::App parser;
+  parser.set_help_flag();
+  parser.allow_extras();
+  for (const Option& option : command.options) add_to_parser(option, parser, words);
+  try {
+    parser.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(error.what());
+  }
+  if (const std::vector<std::string> unknown = parser.remaining(); !unknown.empty())
+    refuse_word(command, unknown.front());
+  set_options(command, words);
+}
+
+bool asks_for_help(const std::string& word) { return word == "--help" || word == "-h"; }
+
+}  // namespace
+
+const Command* parse_command_line(const std::vector<Command>& commands, int argc, const char* const* argv,
+                                  std::string& answer) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.empty()) throw UsageError("no command is given\n\n" + program_help(commands));
+  if (asks_for_help(words[0])) {
+    answer = program_help(commands);
+  } else if (words[0] == "--version") {
+    answer = "facemap " FACEMAP_VERSION "\n";
+  } else if (words[0] == "--help-markdown") {
+    answer = markdown_help(commands);
+  } else {
+    const auto command =
+        std::find_if(commands.begin(), commands.end(), [&](const Command& c) { return c.name == words[0]; });
+    if (command == commands.end()) refuse_command(commands, words[0]);
+    if (std::none_of(words.begin() + 1, words.end(), asks_for_help)) {
+      parse_options(*command, argc - 1, argv + 1);
+      return &*command;
+    }
+    answer = command_help(*command);
+  }
+  return nullptr;
+}
+
+}  // namespace facemap::program

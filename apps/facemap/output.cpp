@@ -1,0 +1,58 @@
+#include "output.h"
+
+#include <facemap/error.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+
+#include "usage_error.h"
+
+namespace facemap::program {
+
+namespace fs = std::filesystem;
+
+bool is_standard_output(const fs::path& output) { return output == "-"; }
+
+void check_output(const fs::path& output, const fs::path& model) {
+  if (output.empty()) throw UsageError("no output file is given: add -o FILE, or -o - for standard output");
+  if (is_standard_output(output)) return;
+  std::error_code ignored;
+  if (!model.empty() && fs::equivalent(output, model, ignored)) {
+    throw UsageError(output.string() + ": the output would replace the model");
+  }
+  if (fs::is_directory(output, ignored)) throw Error(output.string() + ": cannot write: it is a folder");
+  const bool is_special = fs::exists(output, ignored) && !fs::is_regular_file(output, ignored);
+  fs::path folder = output.parent_path();
+  if (folder.empty()) folder = ".";
+  if (!fs::is_directory(folder, ignored)) {
+    throw Error(output.string() + ": cannot write: there is no folder " + folder.string());
+  }
+  const int refused = ::access((is_special ? output : folder).c_str(), is_special ? W_OK : W_OK | X_OK);
+  if (refused) throw Error(output.string() + ": cannot write: " + std::strerror(errno));
+}
+
+void check_png_output(const fs::path& output, const fs::path& model) {
+  for (const char* other :
+       {".jpg", ".jpeg", ".exr", ".hdr", ".bmp", ".gif", ".tif", ".tiff", ".ppm", ".webp", ".svg"}) {
+    if (output.extension() == other) throw UsageError(output.string() + ": pictures are written as PNG; call it .png");
+  }
+  if (is_standard_output(output) && ::isatty(STDOUT_FILENO)) {
+    throw UsageError("-o -: standard output is a terminal; send it to a file or a program");
+  }
+  check_output(output, model);
+}
+
+void write_to_standard_output(std::span<const std::uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const ::ssize_t written = ::write(STDOUT_FILENO, bytes.data(), bytes.size());
+    if (written < 0) {
+      if (errno == EINTR) continue;
+      throw Error(std::string("standard output: cannot write: ") + std::strerror(errno));
+    }
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+}
+
+}  // namespace facemap::program

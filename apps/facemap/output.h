@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+namespace facemap::program {
+
+/// "-" stands for standard output.
+bool is_standard_output(const std::filesystem::path& output);
+
+/// Finds out before the work begins whether a file can be put there. Throws UsageError if it would replace
+/// `model` (may be empty), Error if its folder is absent or cannot be written to.
+void check_output(const std::filesystem::path& output, const std::filesystem::path& model);
+
+/// As above, and refuses names of pictures that are not PNG, and a terminal as standard output.
+void check_png_output(const std::filesystem::path& output, const std::filesystem::path& model);
+
+/// Throws Error if not all bytes can be written.
+void write_to_standard_output(std::span<const std::uint8_t> bytes);
+
+}  // namespace facemap::program

@@ -1,0 +1,101 @@
+#include <facemap/error.h>
+#include <facemap/generators.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include "commands.h"
+#include "interrupt.h"
+#include "output.h"
+#include "text_values.h"
+#include "usage_error.h"
+
+namespace facemap::program {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SceneArguments {
+  std::string name;
+  fs::path output;
+  int detail = 1;
+};
+
+/// A big scene takes seconds to write, so the file is made under another name, which a signal removes.
+void write_beside_and_rename(const GeneratedScene& scene, const fs::path& output) {
+  fs::path temporary = output;
+  temporary += "." + std::to_string(::getpid()) + ".tmp";
+  const RemovedOnSignal removed(temporary);
+  std::error_code error;
+  try {
+    std::ofstream out(temporary, std::ios::binary);
+    write_obj(out, scene, output.filename().string());
+    out.close();
+    if (!out) throw Error("cannot write");
+    fs::rename(temporary, output);
+  } catch (const std::exception& failure) {
+    fs::remove(temporary, error);
+    throw Error(output.string() + ": " + failure.what());
+  }
+}
+
+void make_scene(const SceneArguments& arguments) {
+  if (arguments.name.empty()) throw UsageError("no scene is named");
+  check_output(arguments.output, {});
+  const GeneratedScene scene = generate_scene(arguments.name, arguments.detail);
+  if (is_standard_output(arguments.output)) {
+    write_obj(std::cout, scene, "model.obj");
+    std::cout.flush();
+    if (!std::cout) throw Error("standard output: cannot write");
+    return;
+  }
+  std::error_code ignored;
+  const bool is_special = fs::exists(arguments.output, ignored) && !fs::is_regular_file(arguments.output, ignored);
+  if (is_special) {
+    std::ofstream out(arguments.output, std::ios::binary);
+    write_obj(out, scene, "model.obj");
+  } else {
+    write_beside_and_rename(scene, arguments.output);
+  }
+  std::cout << view_flags(scene) << std::endl;
+}
+
+std::string name_list() {
+  std::string list;
+  for (const std::string& name : generator_names()) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+}  // namespace
+
+Command scene_command() {
+  const auto arguments = std::make_shared<SceneArguments>();
+  Command command;
+  command.name = "scene";
+  command.summary = "Make a scene with the number of faces of one of the paper's four";
+  command.text =
+      "Writes an OBJ file, and prints on standard output the flags (camera and eight lights) that show it as\n"
+      "meant. They also stand in the file's first lines.\n";
+  command.options = {
+      {"SCENE", "", "", "one of " + name_list(),
+       [arguments](const std::string& text) {
+         arguments->name = generator_names()[parse_choice(text, generator_names())];
+       }},
+      {"-o,--output", "FILE", "", "the OBJ file; - writes it to standard output",
+       into(arguments->output, [](const std::string& text) { return fs::path(text); })},
+      {"--detail", "N", "1",
+       "refines every surface in proportion: the faces grow with its square; 1 to " + std::to_string(kMaxSceneDetail),
+       into(arguments->detail, parse_whole_number)},
+  };
+  command.examples = {
+      {"facemap scene chessboard -o chessboard.obj", "123,314 triangles"},
+      {"facemap render chessboard.obj -o chessboard.png $(facemap scene chessboard -o chessboard.obj)",
+       "make it, then draw it as meant"},
+  };
+  command.run = [arguments] { make_scene(*arguments); };
+  return command;
+}
+
+}  // namespace facemap::program

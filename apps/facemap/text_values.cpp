@@ -1,0 +1,177 @@
+#include "text_values.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+
+#include "usage_error.h"
+
+namespace facemap::program {
+namespace {
+
+constexpr int kMaxSide = 32768;  // what a Projection takes
+constexpr int kMaxSamples = 16;  // what a Renderer takes, a side
+constexpr double kPi = 3.14159265358979323846;
+
+[[noreturn]] void refuse(const std::string& text, const std::string& expected) {
+  throw UsageError("'" + text + "' is not " + expected);
+}
+
+/// The whole text as a number; false if it is something else.
+template <typename Number>
+bool read(std::string_view text, Number& number) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && stop == end;
+}
+
+bool read_finite(std::string_view text, float& number) {
+  if (read(text, number)) return std::isfinite(number);
+  // from_chars gives the same error to what is too large and to what is next to nothing.
+  double wide = 0;
+  if (!read(text, wide) || !(std::fabs(wide) < 1)) return false;
+  number = static_cast<float>(wide);
+  return true;
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == separator) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+/// Comma-separated numbers; empty if one of them is none.
+std::vector<float> read_numbers(const std::string& text) {
+  std::vector<float> numbers;
+  for (const std::string& part : split(text, ',')) {
+    float number = 0;
+    if (!read_finite(part, number)) return {};
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+/// Two whole numbers with an x or * between them.
+bool read_pair(const std::string& text, int& first, int& second) {
+  const std::size_t cross = text.find_first_of("xX*");
+  if (cross == std::string::npos) return false;
+  const std::string_view view = text;
+  return read(view.substr(0, cross), first) && read(view.substr(cross + 1), second);
+}
+
+template <typename Number>
+std::string shortest(Number value) {
+  char buffer[64];
+  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return std::string(buffer, error == std::errc() ? end : buffer);
+}
+
+}  // namespace
+
+float parse_number(const std::string& text) {
+  float number = 0;
+  if (!read_finite(text, number)) refuse(text, "a number");
+  return number;
+}
+
+int parse_whole_number(const std::string& text) {
+  int number = 0;
+  if (!read(text, number)) refuse(text, "a whole number");
+  return number;
+}
+
+double parse_degrees(const std::string& text) {
+  double degrees = 0;
+  if (!read(text, degrees) || !(degrees > 0) || !(degrees <= 360))
+    refuse(text, "an angle of more than 0 to 360 degrees");
+  return degrees * (kPi / 180);
+}
+
+Vector parse_vector(const std::string& text) {
+  const std::vector<float> numbers = read_numbers(text);
+  if (numbers.size() != 3) refuse(text, "three numbers x,y,z");
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+Color parse_color(const std::string& text) {
+  if (text.starts_with('#')) {
+    std::uint32_t rgb = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data() + 1, end, rgb, 16);
+    if (text.size() != 7 || error != std::errc() || stop != end) refuse(text, "a colour #rrggbb");
+    return Color::from_24_bit(rgb);
+  }
+  const std::vector<float> numbers = read_numbers(text);
+  if (numbers.size() != 3) refuse(text, "a colour: three linear values r,g,b, or #rrggbb");
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+Light parse_light(const std::string& text) {
+  const std::vector<float> numbers = read_numbers(text);
+  if (numbers.size() != 3 && numbers.size() != 6) refuse(text, "a light x,y,z or x,y,z,r,g,b");
+  Light light;
+  light.position = {numbers[0], numbers[1], numbers[2]};
+  if (numbers.size() == 6) light.color = {numbers[3], numbers[4], numbers[5]};
+  return light;
+}
+
+Size parse_size(const std::string& text) {
+  Size size;
+  if (!read_pair(text, size.width, size.height)) refuse(text, "a size in pixels such as 1024x768");
+  for (const int side : {size.width, size.height}) {
+    if (side < 1 || side > kMaxSide) refuse(text, "a size: each side is 1 to " + std::to_string(kMaxSide) + " pixels");
+  }
+  if (static_cast<long long>(size.width) * size.height > kMaxPixels) {
+    refuse(text, "a size this program takes: " + std::to_string(kMaxPixels) + " pixels at most");
+  }
+  return size;
+}
+
+Samples parse_samples(const std::string& text) {
+  Samples samples;
+  if (text == "1") return samples;
+  int second = 4;
+  if (text == "edges") {
+    samples = {Renderer::Sampling::Edges, second};
+  } else if (text.starts_with("edges:") && read(std::string_view(text).substr(6), second)) {
+    samples = {Renderer::Sampling::Edges, second};
+  } else if (!read_pair(text, samples.side, second)) {
+    refuse(text, "1, a grid such as 4x4, or edges");
+  }
+  if (samples.side != second || second < 1 || second > kMaxSamples) {
+    refuse(text, "a square grid of 1x1 to " + std::to_string(kMaxSamples) + "x" + std::to_string(kMaxSamples));
+  }
+  return samples;
+}
+
+int parse_choice(const std::string& text, const std::vector<std::string>& choices) {
+  std::string list;
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    if (text == choices[i]) return static_cast<int>(i);
+    list += (i ? i + 1 == choices.size() ? " or " : ", " : "") + choices[i];
+  }
+  refuse(text, list);
+}
+
+std::string text_of(float value) { return shortest(value); }
+
+std::string text_of(const Vector& vector) {
+  return text_of(vector.x) + "," + text_of(vector.y) + "," + text_of(vector.z);
+}
+
+std::string degrees_text(double radians) {
+  // A double carries 15 digits; two fewer hide the rounding of the two conversions.
+  char buffer[64];
+  const auto [end, error] =
+      std::to_chars(buffer, buffer + sizeof buffer, radians * (180 / kPi), std::chars_format::general, 13);
+  return std::string(buffer, error == std::errc() ? end : buffer);
+}
+
+}  // namespace facemap::program

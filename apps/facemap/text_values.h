@@ -1,0 +1,55 @@
+#pragma once
+
+#include <facemap/color.h>
+#include <facemap/renderer.h>
+#include <facemap/vector.h>
+
+#include <string>
+#include <vector>
+
+namespace facemap::program {
+
+/// Values of options from text and back. The locale plays no part; nan, inf and trailing text are refused.
+/// The parsers throw UsageError that says what was expected.
+
+float parse_number(const std::string& text);
+int parse_whole_number(const std::string& text);
+
+/// Degrees, as radians.
+double parse_degrees(const std::string& text);
+
+/// "x,y,z".
+Vector parse_vector(const std::string& text);
+
+/// "r,g,b", linear, or "#rrggbb", sRGB.
+Color parse_color(const std::string& text);
+
+/// "x,y,z" or "x,y,z,r,g,b".
+Light parse_light(const std::string& text);
+
+/// "WxH", pixels. Refuses more than kMaxPixels.
+struct Size {
+  int width = 1024;
+  int height = 1024;
+};
+inline constexpr long long kMaxPixels = 1LL << 28;  ///< 16384 x 16384: pixels and maps of about 10 GB
+Size parse_size(const std::string& text);
+
+/// "4x4" or "4*4": a grid; "1": one sample; "edges": one sample, 4x4 at edges; "edges:N": N x N at edges.
+struct Samples {
+  Renderer::Sampling sampling = Renderer::Sampling::Grid;
+  int side = 1;
+};
+Samples parse_samples(const std::string& text);
+
+/// The index of `text` among `choices`.
+int parse_choice(const std::string& text, const std::vector<std::string>& choices);
+
+/// The shortest text that reads back as the same float32.
+std::string text_of(float value);
+std::string text_of(const Vector& vector);
+
+/// Degrees, shortest text of a double.
+std::string degrees_text(double radians);
+
+}  // namespace facemap::program
