@@ -1,25 +1,15 @@
 #include <facemap/face_map.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "map/cover.h"
 #include "map/face_planes.h"
 #include "map/fill.h"
 #include "map/texels.h"
-#include "math/elementary.h"
 #include "simd/floating_point_mode.h"
 
 namespace facemap {
 namespace {
-
-// A field of 360 degrees holds every direction. Its rim is the antipode, whose map point may lie on the raster's
-// border, or a rounding past it.
-bool holds_all_directions(const Projection& projection) {
-  return projection.kind() == ProjectionKind::Surface && projection.field_angle() >= 2 * elementary::kPi;
-}
-
-constexpr double kInsideBorder = 0x1p-24;  // texels: only keeps a point on the border within the last texel
 
 Texels build_texels(const Scene& scene, const SpaceVector& frame, const Projection& projection,
                     const FacePlanesTable& planes, Builder builder, bool keep_all) {
@@ -58,11 +48,7 @@ std::span<const std::uint32_t> FaceMap::faces_at(int texel_x, int texel_y) const
 std::optional<FaceMap::Texel> FaceMap::texel_of(const DVector& direction) const {
   const DVector local = local_from_world(direction);
   if (!projection_.is_mapped(local)) return std::nullopt;
-  MapPoint p = projection_.map_from_local(local);
-  if (holds_all_directions(projection_)) {
-    p.x = std::clamp(p.x, 0.0, width() - kInsideBorder);
-    p.y = std::clamp(p.y, 0.0, height() - kInsideBorder);
-  }
+  const MapPoint p = projection_.map_from_local(local);
   if (!(p.x >= 0 && p.x < width() && p.y >= 0 && p.y < height())) return std::nullopt;
   return Texel{static_cast<int>(p.x), static_cast<int>(p.y)};
 }

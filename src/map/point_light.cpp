@@ -54,7 +54,7 @@ double half_field_of_faces(const Scene& scene, const SpaceVector& frame) {
 
 int texels_for(std::size_t faces) {
   int texels = kFewestTexels;
-  while (texels < kMostTexels && static_cast<double>(texels) * texels < 2.0 * static_cast<double>(faces)) texels *= 2;
+  while (texels < kMostTexels && static_cast<double>(texels) * texels < static_cast<double>(faces)) texels *= 2;
   return texels;
 }
 
