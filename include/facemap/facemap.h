@@ -10,6 +10,7 @@
 #include <facemap/obj.h>
 #include <facemap/point_light.h>
 #include <facemap/projection.h>
+#include <facemap/raster.h>
 #include <facemap/renderer.h>
 #include <facemap/scene.h>
 #include <facemap/space_vector.h>
