@@ -16,9 +16,9 @@ glm::dmat4 perspective_matrix(double field_angle, double aspect, double near, do
   // of that from the sight, so it is the cotangent of the half angle; with cot(theta) 90 degrees would give 0.
   const double cot = 1 / elementary::tan(field_angle / 2);
   const double f = far, n = near;
-  return from_rows({cot / aspect, 0, 0, 0},    //
-                   {0, cot, 0, 0},             //
-                   {0, 0, f / (f - n), 1},     //
+  return from_rows({cot / aspect, 0, 0, 0},  //
+                   {0, cot, 0, 0},           //
+                   {0, 0, f / (f - n), 1},   //
                    {0, 0, f * n / (n - f), 0});
 }
 

@@ -1,0 +1,248 @@
+#include <facemap/error.h>
+#include <facemap/renderer.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using facemap::Color;
+using facemap::Image;
+using facemap::kNoFace;
+using facemap::Light;
+using facemap::Mesh;
+using facemap::Renderer;
+using facemap::Scene;
+using facemap::Vector;
+using facemap::View;
+
+// A square floor of side 8 in y = 0 (faces 0, 1) and a small one of side 1 a unit above its middle (2, 3).
+Mesh floor_and_lid() {
+  Mesh mesh;
+  mesh.positions = {{-4, 0, -4},       {-4, 0, 4},       {4, 0, 4},       {4, 0, -4},
+                    {-0.5f, 1, -0.5f}, {-0.5f, 1, 0.5f}, {0.5f, 1, 0.5f}, {0.5f, 1, -0.5f}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
+  return mesh;
+}
+
+View from_above() {
+  View view;
+  view.position = {0, 10, 0};
+  view.look_at = {0, 0, 0};
+  view.up = {0, 0, -1};
+  view.projection = facemap::ProjectionKind::Plane;
+  return view;
+}
+
+Renderer::Options small(int size = 33) {
+  Renderer::Options options;
+  options.width = options.height = size;
+  options.want_ids = options.want_depths = options.want_lights = true;
+  return options;
+}
+
+std::size_t pixel(const Image& image, int x, int y) { return static_cast<std::size_t>(y * image.width + x); }
+
+TEST(Renderer, RadianceIsColourTimesIntensityTimesCosine) {
+  const Scene scene(floor_and_lid());
+  const std::vector<Light> lights{{{0, 5, 0}, {1, 0.5f, 0.25f}, 0.5f}};
+  const Image image = Renderer(scene, from_above(), lights, small()).render();
+  const std::size_t centre = pixel(image, 16, 16);
+  EXPECT_TRUE(image.ids[centre] == 2 || image.ids[centre] == 3);
+  EXPECT_EQ(image.depths[centre], 9);
+  EXPECT_FLOAT_EQ(image.pixels[centre].r, 0.5f);
+  EXPECT_FLOAT_EQ(image.pixels[centre].g, 0.25f);
+  EXPECT_FLOAT_EQ(image.pixels[centre].b, 0.125f);
+  EXPECT_EQ(image.lights[centre], 1);
+}
+
+TEST(Renderer, InverseSquareFalloffDividesByTheSquaredDistance) {
+  const Scene scene(floor_and_lid());
+  Renderer::Options options = small();
+  options.falloff = Renderer::Falloff::InverseSquare;
+  const Image image = Renderer(scene, from_above(), {{{0, 5, 0}, {1, 1, 1}, 8}}, options).render();
+  EXPECT_FLOAT_EQ(image.pixels[pixel(image, 16, 16)].r, 0.5f);
+}
+
+TEST(Renderer, LidThrowsItsShadowOnTheFloor) {
+  // Seen from the side, the light above: the floor below the lid is dark, its corners are lit.
+  const Scene scene(floor_and_lid());
+  View view;
+  view.position = {0, 0.5f, 20};
+  view.look_at = {0, 0, 0};
+  const facemap::Camera camera(scene, facemap::SpaceVector::looking_at(view.position, view.look_at), {});
+  facemap::PointLight light(scene, {0, 3, 0});
+  const auto lit = [&](const Vector& target) {
+    const Vector d = target - view.position;
+    const facemap::Camera::Hit hit = camera.nearest(d);
+    EXPECT_TRUE(hit.face == 0 || hit.face == 1);
+    return light.get_lighten_up(camera.surface_point(d, hit));
+  };
+  // The lid's half side of 0.5 at height 1 of 3 throws a square of half side 0.75.
+  EXPECT_FALSE(lit({0, 0, 0}));
+  EXPECT_FALSE(lit({0.74f, 0, 0.1f}));
+  EXPECT_TRUE(lit({0.76f, 0, 0.1f}));
+  EXPECT_TRUE(lit({-3, 0, 1}));
+}
+
+TEST(Renderer, LightsAreAddedAndEveryBitIsItsOwn) {
+  const Scene scene(floor_and_lid());
+  std::vector<Light> lights(11, Light{{0, 5, 0}, {0.125f, 0.125f, 0.125f}, 0.5f});
+  lights[3].position = {0, -5, 0};  // below: dark
+  const Image image = Renderer(scene, from_above(), lights, small()).render();
+  EXPECT_EQ(image.light_bytes(), 2);
+  const std::size_t centre = pixel(image, 16, 16);
+  EXPECT_EQ(image.lights[2 * centre], 0xff & ~(1 << 3));
+  EXPECT_EQ(image.lights[2 * centre + 1], 0x07);
+  EXPECT_FLOAT_EQ(image.pixels[centre].r, 10 * 0.0625f);
+}
+
+TEST(Renderer, BackgroundIsWhereNoFaceIs) {
+  const Scene scene(floor_and_lid());
+  Renderer::Options options = small();
+  options.background = {0.1f, 0.2f, 0.3f};
+  View away = from_above();
+  away.look_at = {0, 20, 0};
+  const Image image = Renderer(scene, away, {{{0, 5, 0}}}, options).render();
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    ASSERT_EQ(image.pixels[i], options.background);
+    ASSERT_EQ(image.ids[i], kNoFace);
+    ASSERT_EQ(image.depths[i], INFINITY);
+    ASSERT_EQ(image.lights[i], 0);
+  }
+}
+
+TEST(Renderer, PictureIsNotMirrored) {
+  // One small face to the right of and above the centre as the camera sees it.
+  Mesh mesh;
+  mesh.positions = {{2, 1, 0}, {2.5f, 1, 0}, {2, 2, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  const Scene scene(mesh);
+  for (const auto kind : {facemap::ProjectionKind::Surface, facemap::ProjectionKind::Plane}) {
+    View view;
+    view.position = {0, 0, 10};
+    view.look_at = {0, 0, 0};
+    view.projection = kind;
+    const Image image = Renderer(scene, view, {}, small(101)).render();
+    int seen = 0;
+    for (int y = 0; y < 101; ++y) {
+      for (int x = 0; x < 101; ++x) {
+        if (image.ids[pixel(image, x, y)] == kNoFace) continue;
+        ++seen;
+        EXPECT_GT(x, 50);
+        EXPECT_LT(y, 50);
+      }
+    }
+    EXPECT_GT(seen, 5);
+  }
+}
+
+TEST(Renderer, EdgeSamplingEqualsTheGridWhereItSamples) {
+  const Scene scene(floor_and_lid());
+  Renderer::Options options = small(64);
+  const std::vector<Light> lights{{{3, 5, 1}, {1, 1, 1}, 1}};
+  options.samples = 4;
+  const Image grid = Renderer(scene, from_above(), lights, options).render();
+  options.sampling = Renderer::Sampling::Edges;
+  Renderer renderer(scene, from_above(), lights, options);
+  const Image edges = renderer.render();
+  EXPECT_EQ(grid.ids, edges.ids);
+  EXPECT_EQ(grid.lights, edges.lights);
+  const auto upsampled = renderer.statistics().upsampled_pixels;
+  EXPECT_GT(upsampled, 100u);
+  EXPECT_LT(upsampled, 64u * 64u / 2);
+  // Elsewhere a pixel shows one face under one set of lights: its centre differs from its mean by shading alone.
+  std::size_t same = 0;
+  for (std::size_t i = 0; i < grid.pixels.size(); ++i) {
+    same += grid.pixels[i] == edges.pixels[i];
+    ASSERT_NEAR(grid.pixels[i].r, edges.pixels[i].r, 1e-3);
+  }
+  EXPECT_GE(same, upsampled);
+}
+
+TEST(Renderer, PlanesAreThoseOfTheCentreRayWhateverTheSamples) {
+  const Scene scene(floor_and_lid());
+  const std::vector<Light> lights{{{3, 5, 1}}};
+  Renderer::Options options = small();
+  const Image one = Renderer(scene, from_above(), lights, options).render();
+  options.samples = 2;
+  const Image four = Renderer(scene, from_above(), lights, options).render();
+  EXPECT_EQ(one.ids, four.ids);
+  EXPECT_EQ(one.depths, four.depths);
+  EXPECT_EQ(one.lights, four.lights);
+}
+
+TEST(Renderer, SmoothNormalsShadeRoundAndTheTerminatorFixLightsTheFold) {
+  // A roof of two faces whose shared normals point straight up: with the light low on one side the far face looks
+  // away from it, yet its interpolated normals do not.
+  Mesh mesh;
+  mesh.positions = {{-2, 0, 2}, {2, 0, 2}, {2, 0.4f, 0}, {-2, 0.4f, 0}, {2, 0, -2}, {-2, 0, -2}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {3, 2, 4}, {3, 4, 5}};
+  mesh.normals = {{0, 1, 0}};
+  mesh.normal_corners = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  const Scene scene(mesh);
+  const std::vector<Light> lights{{{0, 3, 20}}};
+  Renderer::Options options = small(65);
+  const Image smooth = Renderer(scene, from_above(), lights, options).render();
+  options.normals = Renderer::Normals::Flat;
+  const Image flat = Renderer(scene, from_above(), lights, options).render();
+  const std::size_t near_side = pixel(smooth, 32, 40), far_side = pixel(smooth, 32, 24);
+  EXPECT_GT(flat.pixels[near_side].r, smooth.pixels[near_side].r) << "the face leans towards the light";
+  EXPECT_EQ(flat.pixels[far_side].r, 0) << "the face is turned away";
+  options.normals = Renderer::Normals::Smooth;
+  options.shadow_terminator_fix = false;
+  const Image unfixed = Renderer(scene, from_above(), lights, options).render();
+  EXPECT_EQ(unfixed.pixels[far_side].r, 0);
+  EXPECT_GT(smooth.pixels[far_side].r, 0) << "the lifted point sees the light over the ridge";
+}
+
+TEST(Renderer, ProgressRunsToTheEndAndCanStop) {
+  const Scene scene(floor_and_lid());
+  double last = -1;
+  int calls = 0;
+  Renderer renderer(scene, from_above(), {{{0, 5, 0}}}, small());
+  renderer.render([&](double fraction, const char*) {
+    last = fraction;
+    ++calls;
+    return true;
+  });
+  EXPECT_GT(last, 0.5);
+  EXPECT_GT(calls, 4);
+  EXPECT_THROW(renderer.render([](double, const char*) { return false; }), facemap::Error);
+}
+
+TEST(Renderer, RefusesOptionsOutOfRange) {
+  const Scene scene(floor_and_lid());
+  Renderer::Options options = small();
+  options.samples = 0;
+  EXPECT_THROW(Renderer(scene, from_above(), {}, options), facemap::Error);
+  options = small();
+  options.width = 0;
+  EXPECT_THROW(Renderer(scene, from_above(), {}, options), facemap::Error);
+  options = small();
+  options.background.g = NAN;
+  EXPECT_THROW(Renderer(scene, from_above(), {}, options), facemap::Error);
+  EXPECT_THROW(Renderer(scene, from_above(), {{{0, 1, 0}, {1, 1, 1}, -1}}, small()), facemap::Error);
+  View bad = from_above();
+  bad.up = {0, 1, 0};
+  EXPECT_THROW(Renderer(scene, bad, {}, small()), facemap::Error);
+  bad = from_above();
+  bad.field_angle = 4;
+  EXPECT_THROW(Renderer(scene, bad, {}, small()), facemap::Error);
+}
+
+TEST(Renderer, MadeUpViewFitsTheSceneAndMadeUpLightsStandAround) {
+  const Scene scene(floor_and_lid());
+  const View view = facemap::make_up_view(scene);
+  const facemap::DVector to_centre = scene.centre() - facemap::DVector(view.position);
+  const double distance = std::sqrt(to_centre.x * to_centre.x + to_centre.y * to_centre.y + to_centre.z * to_centre.z);
+  EXPECT_NEAR(scene.bounding_radius() / distance, std::sin(view.field_angle / 2), 1e-6);
+  const auto lights = facemap::make_up_lights(scene);
+  ASSERT_EQ(lights.size(), 8u);
+  EXPECT_NEAR(lights[0].position.x - scene.centre().x, 1.6 * scene.bounding_radius(), 1e-5);
+  EXPECT_NEAR(lights[1].position.y - scene.centre().y, 1.3 * scene.bounding_radius(), 1e-5);
+  EXPECT_EQ(lights[0].intensity, 0.25f);
+}
+
+}  // namespace
