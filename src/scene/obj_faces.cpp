@@ -9,23 +9,25 @@ namespace {
 
 constexpr Corners kNoCorners = {kNoIndex, kNoIndex, kNoIndex};
 
-/// Appends `value` for each of `added` triangles to an array that stays empty while all values are `absent`.
-void append(std::vector<std::uint32_t>& values, std::size_t before, std::size_t added, std::uint32_t value,
-            std::uint32_t absent) {
+/// Appends `value` for the last `added` triangles to an array that stays empty while all values are `absent`.
+void append(std::vector<std::uint32_t>& values, const std::vector<Corners>& triangles, std::size_t added,
+            std::uint32_t value, std::uint32_t absent) {
   if (values.empty()) {
     if (value == absent) return;
-    values.assign(before, absent);
+    values.reserve(triangles.capacity());
+    values.assign(triangles.size() - added, absent);
   }
   values.insert(values.end(), added, value);
 }
 
-/// Appends the fan of a polygon's indices to an array that stays empty while there are none.
-void append_fan(std::vector<Corners>& values, std::size_t before, std::span<const ObjCorner> corners,
-                std::uint32_t ObjCorner::*index) {
+/// Appends the fan of the last polygon's indices to an array that stays empty while there are none.
+void append_fan(std::vector<Corners>& values, const std::vector<Corners>& triangles,
+                std::span<const ObjCorner> corners, std::uint32_t ObjCorner::*index) {
   if (values.empty()) {
     const auto is_absent = [index](const ObjCorner& corner) { return corner.*index == kNoIndex; };
     if (std::all_of(corners.begin(), corners.end(), is_absent)) return;
-    values.assign(before, kNoCorners);
+    values.reserve(triangles.capacity());
+    values.assign(triangles.size() - (corners.size() - 2), kNoCorners);
   }
   for (std::size_t i = 2; i < corners.size(); ++i) {
     values.push_back({corners[0].*index, corners[i - 1].*index, corners[i].*index});
@@ -45,24 +47,32 @@ void ObjFaces::add(std::span<const ObjCorner> corners, std::int64_t line, bool i
   for (std::size_t i = 2; i < corners.size(); ++i) {
     mesh_.triangles.push_back({corners[0].vertex, corners[i - 1].vertex, corners[i].vertex});
   }
-  append_fan(mesh_.texture_corners, first, corners, &ObjCorner::texture);
-  append_fan(mesh_.normal_corners, first, corners, &ObjCorner::normal);
-  append(mesh_.triangle_materials, first, added, material_, kNoIndex);
-  append(smoothing_groups_, first, added, smoothing_group_, 0);
+  append_fan(mesh_.texture_corners, mesh_.triangles, corners, &ObjCorner::texture);
+  append_fan(mesh_.normal_corners, mesh_.triangles, corners, &ObjCorner::normal);
+  append(mesh_.triangle_materials, mesh_.triangles, added, material_, kNoIndex);
   add_polygon_ids(added);
-  if (corners.size() > 3) {
-    const Fan fan{first, corners.size(), line};
-    if (is_complete) {
-      cut(fan);
-    } else {
-      waiting_.push_back(fan);
-    }
+  if (corners.size() == 3) return;
+
+  const Fan fan{first, corners.size(), line};
+  const auto position = [&](std::size_t i) { return mesh_.positions[corners[i].vertex]; };
+  if (!is_complete) {
+    waiting_.push_back(fan);
+  } else if (corners.size() > 4 || !is_strictly_convex(position(0), position(1), position(2), position(3))) {
+    cut(fan);
   }
+}
+
+void ObjFaces::set_smoothing_group(std::uint32_t group) {
+  const std::size_t first = mesh_.triangles.size();
+  if (!smoothing_runs_.empty() && smoothing_runs_.back().first_triangle == first) smoothing_runs_.pop_back();
+  const std::uint32_t current = smoothing_runs_.empty() ? 0 : smoothing_runs_.back().group;
+  if (group != current) smoothing_runs_.push_back({first, group});
 }
 
 void ObjFaces::add_polygon_ids(std::size_t triangle_count) {
   std::vector<std::uint32_t>& polygons = mesh_.polygons;
   if (polygons.empty() && triangle_count > 1) {
+    polygons.reserve(mesh_.triangles.capacity());
     polygons.resize(polygon_count_);
     std::iota(polygons.begin(), polygons.end(), 0u);
   }

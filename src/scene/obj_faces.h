@@ -8,6 +8,7 @@
 
 #include "scene/obj_warnings.h"
 #include "scene/polygon.h"
+#include "scene/smooth_normals.h"
 
 namespace facemap {
 
@@ -24,8 +25,9 @@ class ObjFaces {
  public:
   ObjFaces(Mesh& mesh, ObjWarnings& warnings) : mesh_(mesh), warnings_(warnings) {}
 
-  void set_material(std::uint32_t material) { material_ = material; }        ///< for faces to come
-  void set_smoothing_group(std::uint32_t group) { smoothing_group_ = group; }  ///< 0: none
+  /// For faces to come; 0 is no smoothing group.
+  void set_material(std::uint32_t material) { material_ = material; }
+  void set_smoothing_group(std::uint32_t group);
 
   /// Adds a face of 3 corners or more. `is_complete`: all its positions have been read; otherwise it is cut
   /// into triangles by finish().
@@ -36,8 +38,7 @@ class ObjFaces {
 
   std::int64_t self_intersecting() const { return self_intersecting_; }
 
-  /// One a triangle, or empty: none has any.
-  const std::vector<std::uint32_t>& smoothing_groups() const { return smoothing_groups_; }
+  const std::vector<SmoothingRun>& smoothing_runs() const { return smoothing_runs_; }
 
  private:
   /// A polygon that stands in the mesh as a fan.
@@ -47,7 +48,6 @@ class ObjFaces {
     std::int64_t line;
   };
 
-  void add_corners(std::span<const ObjCorner> corners);
   void add_polygon_ids(std::size_t triangle_count);
   void cut(const Fan& fan);
   void replace_fan(const Fan& fan, std::vector<Corners>& triangles);
@@ -55,10 +55,9 @@ class ObjFaces {
   Mesh& mesh_;
   ObjWarnings& warnings_;
   std::uint32_t material_ = kNoIndex;
-  std::uint32_t smoothing_group_ = 0;
   std::uint32_t polygon_count_ = 0;
   std::int64_t self_intersecting_ = 0;
-  std::vector<std::uint32_t> smoothing_groups_;
+  std::vector<SmoothingRun> smoothing_runs_;
   std::vector<Fan> waiting_;
   PolygonCutter cutter_;
   std::vector<Vector> positions_;        ///< of the polygon being cut

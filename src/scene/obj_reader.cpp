@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "scene/number.h"
+#include "scene/obj_sizes.h"
 #include "scene/smooth_normals.h"
 
 namespace facemap {
@@ -28,7 +29,13 @@ ObjReader::ObjReader(std::string_view text, std::string name, const std::filesys
       lines_(text),
       warnings_(name_),
       mtl_(directory, limits.max_bytes),
-      faces_(mesh, warnings_) {}
+      faces_(mesh, warnings_) {
+  const ObjSizes sizes = estimate_sizes(text);
+  mesh.positions.reserve(sizes.vertices);
+  mesh.texture_coordinates.reserve(sizes.texture_coordinates);
+  mesh.normals.reserve(sizes.normals);
+  mesh.triangles.reserve(std::min<std::uint64_t>(sizes.triangles, limits.max_faces));
+}
 
 void ObjReader::read() {
   while (lines_.next()) read_statement();
@@ -240,7 +247,7 @@ void ObjReader::finish() {
 
   faces_.finish();
   report.self_intersecting_polygons = faces_.self_intersecting();
-  if (!faces_.smoothing_groups().empty()) add_smooth_normals(mesh, faces_.smoothing_groups());
+  if (!faces_.smoothing_runs().empty()) add_smooth_normals(mesh, faces_.smoothing_runs());
   mtl_.resolve(mesh.triangle_materials, warnings_);
   materials = std::move(mtl_.materials());
   warnings_.append_to(report.warnings);

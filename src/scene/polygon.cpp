@@ -8,6 +8,16 @@ namespace facemap {
 
 namespace {
 
+int largest_component(const DVector& v) {
+  const int of_two = std::abs(v.x) > std::abs(v.y) ? 0 : 1;
+  return std::abs(v[of_two]) > std::abs(v.z) ? of_two : 2;
+}
+
+/// A corner without its coordinate `dropped`.
+PlanePoint projected(const Vector& corner, int dropped) {
+  return {corner[dropped == 0 ? 1 : 0], corner[dropped == 2 ? 1 : 2]};
+}
+
 /// The coordinate to drop: the one along which the polygon's plane is steepest. Areas by Newell's sum; where they
 /// vanish in rounding (a figure of eight), the sum of their parts' magnitudes tells.
 int dropped_coordinate(std::span<const Vector> corners) {
@@ -21,13 +31,9 @@ int dropped_coordinate(std::span<const Vector> corners) {
       magnitude[k] += std::abs(left[k]) + std::abs(right[k]);
     }
   }
-  const auto largest = [](const DVector& v) {
-    const int of_two = std::abs(v.x) > std::abs(v.y) ? 0 : 1;
-    return std::abs(v[of_two]) > std::abs(v.z) ? of_two : 2;
-  };
   const double rounding = 2 * (static_cast<double>(corners.size()) + 4) * 0x1p-53;
-  const int k = largest(area);
-  return std::abs(area[k]) > rounding * magnitude[k] ? k : largest(magnitude);
+  const int k = largest_component(area);
+  return std::abs(area[k]) > rounding * magnitude[k] ? k : largest_component(magnitude);
 }
 
 /// Whether the inner parts of two edges cross in one point.
@@ -36,6 +42,15 @@ bool cross(PlanePoint a, PlanePoint b, PlanePoint c, PlanePoint d) {
 }
 
 }  // namespace
+
+bool is_strictly_convex(const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
+  const DVector u = DVector(c) - DVector(a), v = DVector(d) - DVector(b);
+  const int dropped = largest_component({u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x});
+  const PlanePoint p = projected(a, dropped), q = projected(b, dropped), r = projected(c, dropped),
+                   s = projected(d, dropped);
+  const int turn = orientation(p, q, r);
+  return turn != 0 && orientation(q, r, s) == turn && orientation(r, s, p) == turn && orientation(s, p, q) == turn;
+}
 
 PolygonCutter::Result PolygonCutter::cut(std::span<const Vector> corners) {
   // Ears of a polygon of n corners take n^2 tests at worst where the polygon is plain, n^3 where it is hostile.
@@ -50,9 +65,8 @@ PolygonCutter::Result PolygonCutter::cut(std::span<const Vector> corners) {
 
 void PolygonCutter::project(std::span<const Vector> corners) {
   const int dropped = dropped_coordinate(corners);
-  const int x = dropped == 0 ? 1 : 0, y = dropped == 2 ? 1 : 2;
   points_.clear();
-  for (const Vector& corner : corners) points_.push_back({corner[x], corner[y]});
+  for (const Vector& corner : corners) points_.push_back(projected(corner, dropped));
 
   const auto [left, right] = std::minmax_element(points_.begin(), points_.end(), [](auto a, auto b) { return a.x < b.x; });
   const auto [low, high] = std::minmax_element(points_.begin(), points_.end(), [](auto a, auto b) { return a.y < b.y; });

@@ -11,6 +11,10 @@
 
 namespace facemap {
 
+/// Whether a quad turns to the same side at all four corners, in its own plane: the quick way to know, for most
+/// faces of most files, that its fan about a is right.
+bool is_strictly_convex(const Vector& a, const Vector& b, const Vector& c, const Vector& d);
+
 /// Cuts polygons into triangles by ear clipping (Meisters 1975, "Polygons have ears"). Signs are exact, and taken
 /// in the polygon's own plane: in the two coordinates in which the polygon looks largest. Triangles of zero area
 /// come out only where corners coincide or all that is left lies on one line.

@@ -1,14 +1,11 @@
 #include "scene/polygon_orientation.h"
 
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
 namespace facemap {
 
 namespace {
-
-constexpr double kUnitRoundoff = 0x1p-53;
 
 int sign(double x) { return (x > 0) - (x < 0); }
 
@@ -42,26 +39,9 @@ class ExactSum {
   std::vector<double> parts_;
 };
 
-/// The two products whose difference is twice the signed area of the triangle a, b, c. Differences of floats are
-/// rounded at most once and products of them cannot underflow, so each product is off by 3 roundings at most.
-struct Products {
-  double left, right;
-  Products(PlanePoint a, PlanePoint b, PlanePoint c)
-      : left((static_cast<double>(b.x) - a.x) * (static_cast<double>(c.y) - a.y)),
-        right((static_cast<double>(b.y) - a.y) * (static_cast<double>(c.x) - a.x)) {}
-  double magnitude() const { return std::abs(left) + std::abs(right); }
-};
-
 }  // namespace
 
-int orientation(PlanePoint a, PlanePoint b, PlanePoint c) {
-  // 3 roundings a product; a fourth covers those of the bound itself.
-  constexpr double kBound = 4 * kUnitRoundoff;
-  const Products area(a, b, c);
-  const double difference = area.left - area.right;
-  if (std::abs(difference) > kBound * area.magnitude()) return sign(difference);
-  if (area.left == 0 && area.right == 0) return 0;
-
+int exact_orientation(PlanePoint a, PlanePoint b, PlanePoint c) {
   ExactSum exact;
   exact.add_cross(a, b);
   exact.add_cross(b, c);
@@ -72,12 +52,12 @@ int orientation(PlanePoint a, PlanePoint b, PlanePoint c) {
 int orientation(std::span<const PlanePoint> polygon) {
   double sum = 0, magnitude = 0;
   for (std::size_t i = 2; i < polygon.size(); ++i) {
-    const Products area(polygon[0], polygon[i - 1], polygon[i]);
+    const AreaProducts area(polygon[0], polygon[i - 1], polygon[i]);
     sum += area.left - area.right;
     magnitude += area.magnitude();
   }
   // 4 roundings a term and one more for each sum it goes through, doubled to cover those of the bound itself.
-  const double bound = 2 * (static_cast<double>(polygon.size()) + 4) * kUnitRoundoff * magnitude;
+  const double bound = 2 * (static_cast<double>(polygon.size()) + 4) * 0x1p-53 * magnitude;
   if (std::abs(sum) > bound) return sign(sum);
 
   ExactSum exact;

@@ -1,97 +1,97 @@
 #include "scene/smooth_normals.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <span>
+#include <map>
+#include <utility>
 
 namespace facemap {
 
 namespace {
 
-/// The triangles about each vertex that lie in a smoothing group, by ascending id: those of vertex v are
-/// triangles[first[v]] to triangles[first[v + 1]]. A triangle that names v twice is there twice.
-struct VertexTriangles {
-  std::vector<std::uint64_t> first;
-  std::vector<std::uint32_t> triangles;
+/// What one vertex has in one smoothing group.
+struct VertexSum {
+  DVector area{0};                         ///< sum of twice the areas of its polygons, along their normals
+  std::uint32_t group = 0;
+  std::uint32_t last_polygon = kNoIndex;   ///< whose area was added last
+  std::uint32_t normal = kNoIndex;         ///< made of `area`
 };
 
-VertexTriangles find_vertex_triangles(const Mesh& mesh, const std::vector<std::uint32_t>& groups) {
-  VertexTriangles about;
-  about.first.assign(mesh.positions.size() + 1, 0);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (groups[t] == 0) continue;
-    for (const std::uint32_t vertex : mesh.triangles[t]) ++about.first[vertex];
-  }
-  std::partial_sum(about.first.begin(), about.first.end(), about.first.begin());
-  about.triangles.resize(about.first.back());
-  for (std::size_t t = mesh.triangles.size(); t-- > 0;) {
-    if (groups[t] == 0) continue;
-    for (const std::uint32_t vertex : mesh.triangles[t]) {
-      about.triangles[--about.first[vertex]] = static_cast<std::uint32_t>(t);
+class SmoothNormals {
+ public:
+  explicit SmoothNormals(Mesh& mesh) : mesh_(mesh), first_(mesh.positions.size()) {}
+
+  /// Adds the areas of polygons, given as triangles [begin, end).
+  void add_polygons(std::size_t begin, std::size_t end, std::uint32_t group) {
+    while (begin != end) {
+      const std::uint32_t polygon = polygon_of(begin);
+      std::size_t next = begin;
+      DVector area(0);
+      for (; next != end && polygon_of(next) == polygon; ++next) area += twice_area(next);
+      for (; begin != next; ++begin) {
+        for (const std::uint32_t vertex : mesh_.triangles[begin]) {
+          VertexSum& sum = sum_at(vertex, group);
+          if (sum.last_polygon != polygon) sum.area += area;
+          sum.last_polygon = polygon;
+        }
+      }
     }
   }
-  return about;
-}
 
-std::uint32_t polygon_of(const Mesh& mesh, std::size_t triangle) {
-  return mesh.polygons.empty() ? static_cast<std::uint32_t>(triangle) : mesh.polygons[triangle];
-}
-
-/// Twice the area of each polygon, along its normal.
-std::vector<DVector> polygon_areas(const Mesh& mesh) {
-  std::vector<DVector> areas(polygon_of(mesh, mesh.triangles.size() - 1) + std::size_t{1}, DVector(0));
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const DVector a(mesh.vertex(t, 0));
-    const DVector b = DVector(mesh.vertex(t, 1)) - a, c = DVector(mesh.vertex(t, 2)) - a;
-    areas[polygon_of(mesh, t)] += DVector(b.y * c.z - b.z * c.y, b.z * c.x - b.x * c.z, b.x * c.y - b.y * c.x);
-  }
-  return areas;
-}
-
-/// Gives one normal to the corners at `vertex` of these triangles, all of one group, by ascending id.
-void add_normal(Mesh& mesh, const std::vector<DVector>& areas, std::uint32_t vertex,
-                std::span<const std::uint32_t> triangles) {
-  DVector sum(0);
-  std::uint32_t last_polygon = kNoIndex;
-  bool is_wanted = false;
-  for (const std::uint32_t t : triangles) {
-    const std::uint32_t polygon = polygon_of(mesh, t);
-    if (polygon != last_polygon) sum += areas[polygon];  // its triangles follow each other
-    last_polygon = polygon;
-    for (int k = 0; k < 3; ++k) is_wanted |= mesh.triangles[t][k] == vertex && mesh.normal_corners[t][k] == kNoIndex;
-  }
-  const double length = std::sqrt(sum.x * sum.x + sum.y * sum.y + sum.z * sum.z);
-  if (!is_wanted || !(length > 0)) return;
-
-  const auto normal = static_cast<std::uint32_t>(mesh.normals.size());
-  mesh.normals.push_back(Vector(sum / length));
-  for (const std::uint32_t t : triangles) {
-    for (int k = 0; k < 3; ++k) {
-      if (mesh.triangles[t][k] == vertex && mesh.normal_corners[t][k] == kNoIndex) mesh.normal_corners[t][k] = normal;
+  /// Fills in the normals of corners of triangles [begin, end), once all polygons have been added.
+  void set_normals(std::size_t begin, std::size_t end, std::uint32_t group) {
+    for (; begin != end; ++begin) {
+      for (int corner = 0; corner < 3; ++corner) {
+        std::uint32_t& normal = mesh_.normal_corners[begin][corner];
+        if (normal == kNoIndex) normal = normal_of(sum_at(mesh_.triangles[begin][corner], group));
+      }
     }
   }
-}
+
+ private:
+  std::uint32_t polygon_of(std::size_t triangle) const {
+    return mesh_.polygons.empty() ? static_cast<std::uint32_t>(triangle) : mesh_.polygons[triangle];
+  }
+
+  DVector twice_area(std::size_t triangle) const {
+    const DVector a(mesh_.vertex(triangle, 0));
+    const DVector b = DVector(mesh_.vertex(triangle, 1)) - a, c = DVector(mesh_.vertex(triangle, 2)) - a;
+    return {b.y * c.z - b.z * c.y, b.z * c.x - b.x * c.z, b.x * c.y - b.y * c.x};
+  }
+
+  VertexSum& sum_at(std::uint32_t vertex, std::uint32_t group) {
+    VertexSum& first = first_[vertex];
+    if (first.group == 0) first.group = group;
+    return first.group == group ? first : others_[{vertex, group}];
+  }
+
+  std::uint32_t normal_of(VertexSum& sum) {
+    if (sum.normal != kNoIndex) return sum.normal;
+    const DVector area = sum.area;
+    const double length = std::sqrt(area.x * area.x + area.y * area.y + area.z * area.z);
+    if (!(length > 0)) return kNoIndex;
+    sum.normal = static_cast<std::uint32_t>(mesh_.normals.size());
+    mesh_.normals.push_back(Vector(area * (1 / length)));
+    return sum.normal;
+  }
+
+  Mesh& mesh_;
+  std::vector<VertexSum> first_;  ///< of each vertex, in the first group that was seen there
+  std::map<std::pair<std::uint32_t, std::uint32_t>, VertexSum> others_;  ///< by vertex and group
+};
 
 }  // namespace
 
-void add_smooth_normals(Mesh& mesh, const std::vector<std::uint32_t>& smoothing_groups) {
+void add_smooth_normals(Mesh& mesh, const std::vector<SmoothingRun>& runs) {
   if (mesh.normal_corners.empty()) mesh.normal_corners.assign(mesh.triangles.size(), {kNoIndex, kNoIndex, kNoIndex});
-  VertexTriangles about = find_vertex_triangles(mesh, smoothing_groups);
-  const std::vector<DVector> areas = polygon_areas(mesh);
-  for (std::uint32_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
-    auto begin = about.triangles.begin() + static_cast<std::ptrdiff_t>(about.first[vertex]);
-    const auto end = about.triangles.begin() + static_cast<std::ptrdiff_t>(about.first[vertex + 1]);
-    const auto group_of = [&](std::uint32_t t) { return smoothing_groups[t]; };
-    std::sort(begin, end, [&](std::uint32_t a, std::uint32_t b) {
-      return group_of(a) != group_of(b) ? group_of(a) < group_of(b) : a < b;
-    });
-    while (begin != end) {
-      const auto group_end = std::find_if(begin, end, [&](std::uint32_t t) { return group_of(t) != group_of(*begin); });
-      add_normal(mesh, areas, vertex, {begin, group_end});
-      begin = group_end;
+  SmoothNormals normals(mesh);
+  const auto for_each_run = [&](auto&& visit) {
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const std::size_t end = i + 1 < runs.size() ? runs[i + 1].first_triangle : mesh.triangles.size();
+      if (runs[i].group != 0) visit(runs[i].first_triangle, end, runs[i].group);
     }
-  }
+  };
+  for_each_run([&](std::size_t begin, std::size_t end, std::uint32_t group) { normals.add_polygons(begin, end, group); });
+  for_each_run([&](std::size_t begin, std::size_t end, std::uint32_t group) { normals.set_normals(begin, end, group); });
 }
 
 }  // namespace facemap
