@@ -14,6 +14,8 @@ struct Generator {
 
 constexpr Generator kGenerators[] = {
     {"chessboard", generators::make_chessboard},
+    {"grass", generators::make_grass},
+    {"bust", generators::make_bust},
 };
 
 }  // namespace
