@@ -15,7 +15,7 @@ struct InfoArguments {
 
 template <typename Value>
 void row(const char* name, const Value& value, const char* what = "") {
-  std::cout << "  " << std::left << std::setw(14) << name << value << what << '\n';
+  std::cout << "  " << std::left << std::setw(22) << name << value << what << '\n';
 }
 
 void print_oddities(const Scene& scene) {
@@ -39,7 +39,7 @@ void print_info(const InfoArguments& arguments) {
   std::cout << arguments.model.string() << '\n';
   row("vertices", report.vertices);
   row("normals", report.normals);
-  row("texture", report.texture_coordinates, " coordinates");
+  row("texture coordinates", report.texture_coordinates);
   row("polygons", report.polygons);
   row("triangles", scene.face_count());
   row("kept", scene.kept_faces().size(), " triangles that take part in pictures");

@@ -37,6 +37,7 @@ void catch_signals() {
     ::sigaction(signal, nullptr, &old);
     if (old.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);  // nohup stays in force
   }
+  ::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow further is then an error of write()
 }
 
 void write_whole(const std::function<void()>& write) {

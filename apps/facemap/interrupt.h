@@ -6,7 +6,7 @@
 namespace facemap::program {
 
 /// SIGINT, SIGTERM and SIGHUP from here on: nothing is written before the end, so until then they end the
-/// program at once, with exit code 128 + signal.
+/// program at once, with exit code 128 + signal. A limit on file sizes becomes an ordinary error.
 void catch_signals();
 
 /// Thrown by write_whole when a signal came meanwhile.

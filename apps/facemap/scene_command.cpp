@@ -87,7 +87,7 @@ Command scene_command() {
        into(arguments->output, [](const std::string& text) { return fs::path(text); })},
       {"--detail", "N", "1",
        "refines every surface in proportion: the faces grow with its square; 1 to " + std::to_string(kMaxSceneDetail),
-       into(arguments->detail, parse_whole_number)},
+       into(arguments->detail, [](const std::string& text) { return parse_whole_number(text, 1, kMaxSceneDetail); })},
   };
   command.examples = {
       {"facemap scene chessboard -o chessboard.obj", "123,314 triangles"},

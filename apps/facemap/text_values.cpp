@@ -81,9 +81,11 @@ float parse_number(const std::string& text) {
   return number;
 }
 
-int parse_whole_number(const std::string& text) {
+int parse_whole_number(const std::string& text, int least, int most) {
   int number = 0;
-  if (!read(text, number)) refuse(text, "a whole number");
+  if (!read(text, number) || number < least || number > most) {
+    refuse(text, "a whole number of " + std::to_string(least) + " to " + std::to_string(most));
+  }
   return number;
 }
 

@@ -13,7 +13,7 @@ namespace facemap::program {
 /// The parsers throw UsageError that says what was expected.
 
 float parse_number(const std::string& text);
-int parse_whole_number(const std::string& text);
+int parse_whole_number(const std::string& text, int least, int most);
 
 /// Degrees, as radians.
 double parse_degrees(const std::string& text);
