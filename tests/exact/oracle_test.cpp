@@ -159,7 +159,8 @@ TEST(Oracle, DoublesSayWhatIntegersSay) {
 }
 
 TEST(Scenes, ClosedMakersTurnTheirFacesOutwards) {
-  for (const Mesh& mesh : {box({-1, -2, -3}, {1, 2, 3}), test_scenes::uv_sphere(12, 7, {0, 0, 0}, 1)}) {
+  for (const Mesh& mesh : {box({-1, -2, -3}, {1, 2, 3}), test_scenes::uv_sphere(12, 7, {0, 0, 0}, 1),
+                           test_scenes::geodesic_sphere(2, {0, 0, 0}, 1)}) {
     const Oracle oracle(mesh);
     ASSERT_EQ(oracle.kept_faces().size(), mesh.face_count());
     for (const facemap::FaceId face : oracle.kept_faces()) EXPECT_EQ(oracle.side(face, {0, 0, 0}), 1);

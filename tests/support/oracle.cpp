@@ -297,6 +297,14 @@ bool View::meets(FaceId face, const Vector& direction) const {
   return found != faces_.end() && meets(*found, target_from(direction), &strictly_inside);
 }
 
+double View::distance(FaceId face, const Vector& direction) const {
+  const BigPlane p = big_plane(oracle_->mesh(), face);
+  const BigVector d = big(direction);
+  // t = (n . A) / (n . d): both carry the same powers of 2^149.
+  const double t = rounded_quotient(mpz_class(dot(p.n, p.a - big(origin_)) << 149), dot(p.n, d));
+  return t * length({direction.x, direction.y, direction.z});
+}
+
 // ---- lit or not -----------------------------------------------------------------------------------------
 
 // The ray K + t d meets the plane of F at t = n . (a - K) / n . d.

@@ -84,6 +84,9 @@ class View {
   /// Whether the ray along `direction` meets this one face.
   bool meets(FaceId face, const Vector& direction) const;
 
+  /// How far along the ray `face`, which it meets, is: world units, to 2^-48 relative; NaN past the range of doubles.
+  double distance(FaceId face, const Vector& direction) const;
+
   bool is_blocked(const SurfacePoint& point) const;
   bool is_lit(const SurfacePoint& point) const;
   bool is_lit(const Vector& point, const facemap::PointLight::On& on) const;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -213,6 +216,33 @@ Mesh uv_sphere(int slices, int stacks, const DVector& centre, double radius) {
     }
   }
   for (int j = 0; j < slices; ++j) mesh.triangles.push_back({south, at(stacks - 1, j + 1), at(stacks - 1, j)});
+  return mesh;
+}
+
+Mesh geodesic_sphere(int splits, const DVector& centre, double radius) {
+  const double g = (1 + std::sqrt(5.0)) / 2;
+  std::vector<DVector> unit = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
+                               {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+  for (DVector& v : unit) v = glm::normalize(v);
+  Mesh mesh;
+  mesh.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},   {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                    {3, 8, 9},   {4, 9, 5},  {2, 4, 11},  {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+  for (int split = 0; split < splits; ++split) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto middle = [&](std::uint32_t i, std::uint32_t j) {
+      const auto [at, is_new] = middles.try_emplace(std::minmax(i, j), static_cast<std::uint32_t>(unit.size()));
+      if (is_new) unit.push_back(glm::normalize(unit[i] + unit[j]));
+      return at->second;
+    };
+    std::vector<Corners> finer;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const std::uint32_t p = middle(a, b), q = middle(b, c), r = middle(c, a);
+      finer.insert(finer.end(), {{a, p, r}, {p, b, q}, {r, q, c}, {p, q, r}});
+    }
+    mesh.triangles = std::move(finer);
+  }
+  for (const DVector& v : unit) add_vertex(mesh, rounded(centre + radius * v));
   return mesh;
 }
 

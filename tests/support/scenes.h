@@ -48,6 +48,9 @@ Vector make_origin(const TestScene& scene, Random& random);
 /// A closed sphere of `stacks` x `slices` quads (triangles at the poles), every face turned outwards.
 Mesh uv_sphere(int slices, int stacks, const facemap::DVector& centre, double radius);
 
+/// A closed, strictly convex sphere: an icosahedron, its faces split in four `splits` times; turned outwards.
+Mesh geodesic_sphere(int splits, const facemap::DVector& centre, double radius);
+
 /// A closed axis-parallel box, every face turned outwards.
 Mesh box(const Vector& lower, const Vector& upper);
 
