@@ -36,6 +36,7 @@ double angle_between(const DVector& a, const DVector& b) {
 }
 
 DVector sight_of(const Scene& scene, const Vector& position) {
+  const FloatingPointMode mode;
   const DVector towards = scene.centre() - DVector(position);
   return length(towards) > 0 ? towards : DVector(0, 0, -1);
 }
@@ -59,6 +60,7 @@ int texels_for(std::size_t faces) {
 }
 
 Projection projection_for(const Scene& scene, const SpaceVector& frame, const PointLight::Options& options) {
+  const FloatingPointMode mode;
   if (options.texels < 0) throw Error("texels of a light's map must not be negative");
   const int texels = options.texels > 0 ? options.texels : texels_for(scene.kept_faces().size());
   // Within 90 degrees of the sight a face lies in the convex hull of its corners' directions.

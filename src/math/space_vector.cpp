@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "simd/floating_point_mode.h"
+
 namespace facemap {
 namespace {
 
@@ -29,6 +31,7 @@ constexpr double kParallelSine = 1e-9;
 
 SpaceVector::SpaceVector(const Vector& position, const DVector& axis_x, const DVector& axis_y, const DVector& axis_z)
     : position_(position) {
+  const FloatingPointMode mode;
   if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(position.z)) {
     throw Error("position is not finite");
   }
@@ -46,6 +49,7 @@ SpaceVector::SpaceVector(const Vector& position, const DVector& axis_x, const DV
 }
 
 SpaceVector SpaceVector::looking_at(const Vector& position, const Vector& look_at, const Vector& up) {
+  const FloatingPointMode mode;
   const DVector sight = normalized(DVector(look_at) - DVector(position));
   if (is_zero(sight)) throw Error("camera position and the point it looks at are the same");
   const DVector right = cross(sight, normalized(DVector(up)));
@@ -55,6 +59,7 @@ SpaceVector SpaceVector::looking_at(const Vector& position, const Vector& look_a
 }
 
 SpaceVector SpaceVector::looking_along(const Vector& position, const DVector& sight) {
+  const FloatingPointMode mode;
   const DVector z = normalized(sight);
   if (is_zero(z)) throw Error("sight direction is zero");
   // The world axis farthest from the sight, +y preferred, serves as up.

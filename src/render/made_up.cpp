@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "math/elementary.h"
+#include "simd/floating_point_mode.h"
 
 namespace facemap {
 namespace {
@@ -18,6 +19,7 @@ constexpr int kMadeUpLights = 8;
 }  // namespace
 
 View make_up_view(const Scene& scene, const View& wanted) {
+  const FloatingPointMode mode;
   View view = wanted;
   const DVector from(0.5, 0.6, 1);
   const double radius = scene.bounding_radius();
@@ -30,6 +32,7 @@ View make_up_view(const Scene& scene, const View& wanted) {
 }
 
 std::vector<Light> make_up_lights(const Scene& scene) {
+  const FloatingPointMode mode;
   std::vector<Light> lights;
   const double r = scene.bounding_radius();
   for (int k = 0; k < kMadeUpLights; ++k) {

@@ -39,6 +39,7 @@ void validate(const Renderer::Options& options, const std::vector<Light>& lights
 
 Renderer::Renderer(const Scene& scene, const View& view, std::vector<Light> lights, const Options& options)
     : scene_(&scene), view_(view), lights_(std::move(lights)), options_(options) {
+  const FloatingPointMode mode;
   validate(options_, lights_);
   Projection(view.projection, view.field_angle, options.width, options.height);
   SpaceVector::looking_at(view.position, view.look_at, view.up);

@@ -8,6 +8,7 @@
 
 #include "scene/file_mapping.h"
 #include "scene/obj_reader.h"
+#include "simd/floating_point_mode.h"
 
 namespace facemap {
 
@@ -34,6 +35,7 @@ OBJ::OBJ(ObjReader&& reader)
     : mesh_(std::move(reader.mesh)), materials_(std::move(reader.materials)), report_(std::move(reader.report)) {}
 
 OBJ OBJ::load(const std::filesystem::path& path, const Limits& limits) {
+  const FloatingPointMode mode;
   const std::string name = path.string();
   std::optional<FileMapping> file(std::in_place, path, limits.max_bytes);
   check_encoding(file->text(), name);
@@ -46,6 +48,7 @@ OBJ OBJ::load(const std::filesystem::path& path, const Limits& limits) {
 
 OBJ OBJ::parse(std::string_view text, const std::string& name, const std::filesystem::path& directory,
                const Limits& limits) {
+  const FloatingPointMode mode;
   if (text.size() > limits.max_bytes) {
     throw LoadError(LoadError::Cause::TooLarge, name, 0, "more than " + std::to_string(limits.max_bytes) + " bytes");
   }

@@ -10,6 +10,7 @@
 #include <facemap/error.h>
 
 #include "scene/odd_faces.h"
+#include "simd/floating_point_mode.h"
 
 namespace facemap {
 
@@ -66,6 +67,7 @@ std::string extension_of(const std::filesystem::path& path) {
 }  // namespace
 
 Scene::Scene(Mesh mesh, std::vector<Material> materials) : mesh_(std::move(mesh)), materials_(std::move(materials)) {
+  const FloatingPointMode mode;
   check(mesh_, materials_.size());
   odd_ = find_odd_faces(mesh_, kept_);
   kept_faces_.reserve(face_count());

@@ -1,0 +1,47 @@
+#include "simd/floating_point_mode.h"
+
+#include <facemap/renderer.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+#if defined(__SSE2__)
+
+constexpr unsigned kHostileMode = 0x1f80u | 0x8000u | 0x4000u | 0x0040u;  // flush, round up, denormals are zero
+
+TEST(FloatingPointMode, AnswersAreTheSameInACallersHostileModeAndTheModeIsKept) {
+  // A scene of denormal size: a flushed denormal would be a lost face.
+  facemap::Mesh mesh;
+  const float s = 1e-39f;
+  mesh.positions = {{-4 * s, 0, -4 * s}, {-4 * s, 0, 4 * s}, {4 * s, 0, 4 * s}, {s, s, 0}, {s, s, s}, {0, s, s}};
+  mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  const facemap::Scene scene(mesh);
+  facemap::View view;
+  view.position = {0, 10 * s, 0};
+  view.look_at = {0, 0, 0};
+  view.up = {0, 0, -1};
+  facemap::Renderer::Options options;
+  options.width = options.height = 24;
+  options.want_ids = options.want_depths = options.want_lights = true;
+  const std::vector<facemap::Light> lights{{{s, 3 * s, 0}}};
+  const facemap::Image expected = facemap::Renderer(scene, view, lights, options).render();
+
+  const unsigned saved = _mm_getcsr();
+  _mm_setcsr(kHostileMode);
+  const facemap::Image image = facemap::Renderer(scene, view, lights, options).render();
+  const unsigned after = _mm_getcsr();
+  _mm_setcsr(saved);
+  EXPECT_EQ(after & ~0x3fu, kHostileMode & ~0x3fu) << "the low bits are exception flags";
+  EXPECT_EQ(image.ids, expected.ids);
+  EXPECT_EQ(image.depths, expected.depths);
+  EXPECT_EQ(image.lights, expected.lights);
+  EXPECT_TRUE(image.pixels == expected.pixels);
+  int seen = 0;
+  for (const facemap::FaceId id : image.ids) seen += id == 1;
+  EXPECT_GT(seen, 0);
+}
+
+#endif
+
+}  // namespace
