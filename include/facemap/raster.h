@@ -11,12 +11,12 @@ namespace facemap {
 
 /// Settings of the raster method.
 struct RasterOptions {
-  int width = 1024;            ///< pixels
-  int height = 1024;           ///< pixels
-  int edge_samples = 1;        ///< a side of the grid in an edge pixel, 1..16; 1: no up-sampling
-  double near_plane = 0;       ///< world units along the sight; 0: 2^-20 of the far plane's distance
-  double far_plane = 0;        ///< world units along the sight; 0: just behind the farthest vertex
-  Color background{0, 0, 0};   ///< linear RGB
+  int width = 1024;                            ///< pixels
+  int height = 1024;                           ///< pixels
+  int edge_samples = 1;                        ///< a side of the grid in an edge pixel, 1..16; 1: no up-sampling
+  double near_plane = 0;                       ///< world units along the sight; 0: 2^-20 of the far plane's distance
+  double far_plane = 0;                        ///< world units along the sight; 0: just behind the farthest vertex
+  Color background{0, 0, 0};                   ///< linear RGB
   bool want_ids = false, want_depths = false;  ///< planes to fill: those of the ray through the pixel's centre
 };
 

@@ -36,8 +36,7 @@ void PrintTo(const Setting& s, std::ostream* out) { *out << s.field_deg << " deg
 
 class SurfaceProjection : public testing::TestWithParam<Setting> {
  protected:
-  Projection projection_{ProjectionKind::Surface, GetParam().field_deg * kDegree, GetParam().width,
-                         GetParam().height};
+  Projection projection_{ProjectionKind::Surface, GetParam().field_deg* kDegree, GetParam().width, GetParam().height};
   double half_width_ = GetParam().width * 0.5, half_height_ = GetParam().height * 0.5;
   double radius_ = std::min(half_width_, half_height_);
 };
@@ -159,7 +158,7 @@ INSTANTIATE_TEST_SUITE_P(Fields, SurfaceProjection,
 
 class PlaneProjection : public testing::TestWithParam<Setting> {
  protected:
-  Projection projection_{ProjectionKind::Plane, GetParam().field_deg * kDegree, GetParam().width, GetParam().height};
+  Projection projection_{ProjectionKind::Plane, GetParam().field_deg* kDegree, GetParam().width, GetParam().height};
 };
 
 TEST_P(PlaneProjection, FieldAngleSpansTheHeight) {
