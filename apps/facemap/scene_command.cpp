@@ -2,6 +2,8 @@
 #include <facemap/generators.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -23,21 +25,30 @@ struct SceneArguments {
   int detail = 1;
 };
 
+void write(std::ostream& out, const GeneratedScene& scene, const std::string& file_name,
+           const std::string& shown_name) {
+  errno = 0;
+  try {
+    write_obj(out, scene, file_name);
+  } catch (const Error&) {
+    throw Error(shown_name + ": cannot write" + (errno ? std::string(": ") + std::strerror(errno) : ""));
+  }
+}
+
 /// A big scene takes seconds to write, so the file is made under another name, which a signal removes.
 void write_beside_and_rename(const GeneratedScene& scene, const fs::path& output) {
   fs::path temporary = output;
   temporary += "." + std::to_string(::getpid()) + ".tmp";
   const RemovedOnSignal removed(temporary);
-  std::error_code error;
   try {
     std::ofstream out(temporary, std::ios::binary);
-    write_obj(out, scene, output.filename().string());
+    write(out, scene, output.filename().string(), output.string());
     out.close();
-    if (!out) throw Error("cannot write");
     fs::rename(temporary, output);
-  } catch (const std::exception& failure) {
-    fs::remove(temporary, error);
-    throw Error(output.string() + ": " + failure.what());
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    throw;
   }
 }
 
@@ -46,16 +57,13 @@ void make_scene(const SceneArguments& arguments) {
   check_output(arguments.output, {});
   const GeneratedScene scene = generate_scene(arguments.name, arguments.detail);
   if (is_standard_output(arguments.output)) {
-    write_obj(std::cout, scene, "model.obj");
-    std::cout.flush();
-    if (!std::cout) throw Error("standard output: cannot write");
+    write(std::cout, scene, "model.obj", "standard output");
     return;
   }
   std::error_code ignored;
-  const bool is_special = fs::exists(arguments.output, ignored) && !fs::is_regular_file(arguments.output, ignored);
-  if (is_special) {
+  if (fs::exists(arguments.output, ignored) && !fs::is_regular_file(arguments.output, ignored)) {
     std::ofstream out(arguments.output, std::ios::binary);
-    write_obj(out, scene, "model.obj");
+    write(out, scene, "model.obj", arguments.output.string());
   } else {
     write_beside_and_rename(scene, arguments.output);
   }

@@ -56,7 +56,8 @@ TEST_F(Program, SceneWritesAModelAndTheFlagsOfItsView) {
 TEST_F(Program, SceneGoesToStandardOutputToo) {
   ASSERT_EQ(run("scene chessboard -o model.obj").exit_code, 0);
   EXPECT_EQ(run("scene chessboard -o -").out, read_file("model.obj"));
-  expect_error(run_shell("\"$facemap\" scene chessboard -o - >/dev/full"), 1, "standard output: cannot write");
+  expect_error(run_shell("\"$facemap\" scene chessboard -o - >/dev/full"), 1,
+               "standard output: cannot write: No space left on device");
 }
 
 }  // namespace

@@ -1,0 +1,11 @@
+#!/bin/sh
+# Runs every command of the ```sh blocks in README.md and docs, from the top folder, in their order.
+# scripts/test itself is what runs this: it only has to be there.
+set -eu
+for page in README.md CONTRIBUTING.md docs/*.md; do
+  commands=$(awk '/^```sh$/ { inside = 1; next } /^```$/ { inside = 0 } inside' "$page" |
+    sed 's|^scripts/test.*|test -x scripts/test|')
+  [ -n "$commands" ] || continue
+  echo "== $page"
+  echo "$commands" | sh -eux
+done

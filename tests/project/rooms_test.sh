@@ -1,0 +1,20 @@
+#!/bin/sh
+# Includes point one way, as in docs/architecture.md: scene, map, render; math and simd serve all three and know
+# none of them. Programs include the public headers alone.
+set -eu
+failed=0
+
+# forbid FOLDERS PATTERN: no file of these folders includes what the pattern names.
+forbid() {
+  # shellcheck disable=SC2086 # a list of folders
+  if grep -rnE "#include \"$2/" $1; then
+    echo "the includes above lead out of their room" >&2
+    failed=1
+  fi
+}
+
+forbid 'src/math src/simd' '(scene|map|render)'
+forbid 'src/scene' '(map|render)'
+forbid 'src/map' 'render'
+forbid 'apps examples' '(math|simd|scene|map|render)'
+exit $failed
