@@ -13,8 +13,8 @@ namespace {
 // three components and a wide reserve.
 constexpr double kCrossError = 0x1p-47;
 
-// Rounding of a dot product of two unit vectors whose components are off by a few units of 2^-53.
-constexpr double kDotError = 0x1p-48;
+// Rounding of a dot product of two unit vectors whose components are off by a few units of 2^-50.
+constexpr double kDotError = 0x1p-46;
 
 constexpr double kRightAngle = elementary::kPi / 2;
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "map/cone.h"
+#include "map/texels.h"
 #include "math/elementary.h"
 
 namespace facemap {
@@ -32,15 +33,15 @@ struct Box {
 
 class Builder {
  public:
-  Builder(const SpaceVector& frame, const Projection& projection, double scale, Coverage& out)
-      : frame_(frame), projection_(projection), scale_(scale), out_(out) {
+  Builder(const SpaceVector& frame, const Projection& projection, const FacePlanesTable& planes, Coverage& out)
+      : frame_(frame), projection_(projection), planes_(planes), out_(out) {
     while (root_size_ < std::max(projection.width(), projection.height())) root_size_ *= 2;
     for (int size = 1; size <= root_size_; size *= 2) radii_.emplace_back(block_cap_radius(projection, size));
     raster_ = {0, 0, projection.width() - 1, projection.height() - 1};
   }
 
-  void add(std::uint32_t id, const Triangle& face, int side) {
-    const Cone cone(face, side, frame_);
+  void add(std::uint32_t id, const Triangle& face) {
+    const Cone cone(face, planes_.side(id), frame_);
     const std::optional<Box> box = box_of(cone);
     const Box region = box ? clipped(*box) : raster_;
     if (region.is_empty()) return;
@@ -122,13 +123,15 @@ class Builder {
   void visit_texel(std::uint32_t id, const Cone& cone, int x, int y) {
     const MapPoint centre(x + 0.5, y + 0.5);
     if (is_beyond_antipode(centre)) return;
-    const DVector c = projection_.local_from_map(centre);
-    if (!cone.may_meet(c, radii_[0])) return;
     const auto texel = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(projection_.width()) +
                        static_cast<std::uint32_t>(x);
+    const bool keeps_all = out_.cuts.empty();
+    if (!keeps_all && Texels::is_hidden(planes_.nearest()[id], out_.cuts[texel])) return;
+    const DVector c = projection_.local_from_map(centre);
+    if (!cone.may_meet(c, radii_[0])) return;
     out_.entries.push_back({texel, id});
-    if (cone.surely_covers(c, radii_[0])) {
-      out_.cuts[texel] = std::min(out_.cuts[texel], float_above(cone.farthest(c, radii_[0]) * scale_));
+    if (!keeps_all && cone.surely_covers(c, radii_[0])) {
+      out_.cuts[texel] = std::min(out_.cuts[texel], float_above(cone.farthest(c, radii_[0]) * planes_.scale()));
     }
   }
 
@@ -143,7 +146,7 @@ class Builder {
 
   const SpaceVector& frame_;
   const Projection& projection_;
-  double scale_;
+  const FacePlanesTable& planes_;
   Coverage& out_;
   int root_size_ = 1;
   std::vector<Cone::Radius> radii_;  // by level: blocks of 1, 2, 4, ... texels
@@ -174,15 +177,15 @@ double bulge(double angle, double beta) {
 }
 
 Coverage cover_faces(const Scene& scene, const SpaceVector& frame, const Projection& projection,
-                     const FacePlanesTable& planes) {
+                     const FacePlanesTable& planes, bool keep_all) {
   Coverage coverage;
-  const auto texel_count = static_cast<std::size_t>(projection.width()) * static_cast<std::size_t>(projection.height());
-  coverage.cuts.assign(texel_count, std::numeric_limits<float>::infinity());
-  Builder builder(frame, projection, planes.scale(), coverage);
-  for (const std::uint32_t id : scene.kept_faces()) {
-    const int side = planes.side(id);
-    if (side != 0) builder.add(id, triangle_of(scene, id), side);
+  if (!keep_all) {
+    const auto texel_count =
+        static_cast<std::size_t>(projection.width()) * static_cast<std::size_t>(projection.height());
+    coverage.cuts.assign(texel_count, std::numeric_limits<float>::infinity());
   }
+  Builder builder(frame, projection, planes, coverage);
+  for (const std::uint32_t id : planes.front_to_back(scene)) builder.add(id, triangle_of(scene, id));
   return coverage;
 }
 

@@ -19,12 +19,13 @@ namespace facemap {
 /// of the texel's centre direction c, and D within texel_cap_radius() of it. A texel is kept unless no direction
 /// of that cap hits the face (Cone::may_meet). Blocks of texels are the same with a larger cap.
 struct Coverage {
-  std::vector<TexelEntry> entries;  ///< in face order
+  std::vector<TexelEntry> entries;  ///< front to back: by nearest bound, then id
   std::vector<float> cuts;  ///< a texel: upper bound (map units) of the distance of a face that covers all of its cap
 };
 
+/// Faces that begin beyond a texel's cut are left out of it as they come, unless `keep_all`; cuts are empty then.
 Coverage cover_faces(const Scene& scene, const SpaceVector& frame, const Projection& projection,
-                     const FacePlanesTable& planes);
+                     const FacePlanesTable& planes, bool keep_all);
 
 /// Angular radius of the cap that holds every direction whose computed map point lies in a block of
 /// `side_texels` squared texels, seen from the block's centre direction.

@@ -1,6 +1,6 @@
 #include <facemap/face_map.h>
 
-#include <cmath>
+#include <algorithm>
 
 #include "map/cover.h"
 #include "map/face_planes.h"
@@ -17,10 +17,12 @@ Texels build_texels(const Scene& scene, const SpaceVector& frame, const Projecti
   if (builder == Builder::Fill) {
     std::vector<TexelEntry> entries;
     fill_faces(scene, frame, projection, entries);
+    std::stable_sort(entries.begin(), entries.end(), [&](const TexelEntry& a, const TexelEntry& b) {
+      return planes.nearest()[a.face] < planes.nearest()[b.face];
+    });
     return Texels(texel_count, entries, planes.nearest(), {});
   }
-  Coverage coverage = cover_faces(scene, frame, projection, planes);
-  if (keep_all) coverage.cuts.clear();
+  Coverage coverage = cover_faces(scene, frame, projection, planes, keep_all);
   return Texels(texel_count, coverage.entries, planes.nearest(), std::move(coverage.cuts));
 }
 

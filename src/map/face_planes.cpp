@@ -110,6 +110,18 @@ FacePlanesTable::FacePlanesTable(const Scene& scene, const Vector& origin)
   }
 }
 
+std::vector<std::uint32_t> FacePlanesTable::front_to_back(const Scene& scene) const {
+  std::vector<std::uint32_t> ids;
+  ids.reserve(scene.kept_faces().size());
+  for (const std::uint32_t id : scene.kept_faces()) {
+    if (side(id) != 0) ids.push_back(id);
+  }
+  std::sort(ids.begin(), ids.end(), [this](std::uint32_t a, std::uint32_t b) {
+    return nearest_[a] != nearest_[b] ? nearest_[a] < nearest_[b] : a < b;
+  });
+  return ids;
+}
+
 std::size_t FacePlanesTable::memory_bytes() const noexcept {
   return sides_.size() * sizeof(std::int8_t) + planes_.size() * sizeof(simd::FacePlanes) +
          nearest_.size() * sizeof(float);

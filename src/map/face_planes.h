@@ -26,6 +26,9 @@ class FacePlanesTable {
   /// Lower bound of the distance of face `id` from O (map units, rounded down), by id.
   const float* nearest() const noexcept { return nearest_.data(); }
 
+  /// Ids of the faces that O does not see edge-on, by nearest bound, then id.
+  std::vector<std::uint32_t> front_to_back(const Scene& scene) const;
+
   std::size_t memory_bytes() const noexcept;
 
  private:

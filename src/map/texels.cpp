@@ -1,6 +1,6 @@
 #include "map/texels.h"
 
-#include <algorithm>
+#include <utility>
 
 namespace facemap {
 
@@ -8,7 +8,7 @@ Texels::Texels(std::size_t texel_count, std::span<const TexelEntry> entries, con
                std::vector<float> cuts)
     : offsets_(texel_count + 1, 0), cuts_(std::move(cuts)) {
   const auto is_kept = [&](const TexelEntry& e) {
-    return cuts_.empty() || !(nearest[e.face] > cuts_[e.texel] * (1 + 2 * kDepthMargin));
+    return cuts_.empty() || !is_hidden(nearest[e.face], cuts_[e.texel]);
   };
   for (const TexelEntry& e : entries) {
     if (is_kept(e)) ++offsets_[e.texel + 1];
@@ -18,12 +18,6 @@ Texels::Texels(std::size_t texel_count, std::span<const TexelEntry> entries, con
   std::vector<std::size_t> next(offsets_.begin(), offsets_.end() - 1);
   for (const TexelEntry& e : entries) {
     if (is_kept(e)) faces_[next[e.texel]++] = e.face;
-  }
-  for (std::size_t i = 0; i < texel_count; ++i) {
-    std::sort(faces_.begin() + static_cast<std::ptrdiff_t>(offsets_[i]),
-              faces_.begin() + static_cast<std::ptrdiff_t>(offsets_[i + 1]), [&](std::uint32_t a, std::uint32_t b) {
-                return nearest[a] != nearest[b] ? nearest[a] < nearest[b] : a < b;
-              });
   }
 }
 

@@ -14,9 +14,9 @@ std::vector<std::uint32_t> list(const Texels& texels, std::size_t texel) {
   return {faces.begin(), faces.end()};
 }
 
-TEST(Texels, ListsAreFrontToBackAndTiesInOrderOfIds) {
+TEST(Texels, ListsKeepTheOrderOfTheEntries) {
   const std::vector<float> nearest{3, 1, 2, 1};
-  const std::vector<TexelEntry> entries{{0, 0}, {2, 0}, {0, 3}, {0, 1}, {0, 2}};
+  const std::vector<TexelEntry> entries{{0, 1}, {0, 3}, {0, 2}, {2, 0}, {0, 0}};
   const Texels texels(3, entries, nearest.data(), {});
   EXPECT_EQ(list(texels, 0), (std::vector<std::uint32_t>{1, 3, 2, 0}));
   EXPECT_TRUE(list(texels, 1).empty());
