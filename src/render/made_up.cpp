@@ -16,6 +16,10 @@ constexpr double kClosestApproach = 0.05;
 
 constexpr int kMadeUpLights = 8;
 
+// cos(2 pi k / 8); the sine is the cosine of two steps back.
+constexpr double kHalfRoot = 0.70710678118654752;
+constexpr double kCosines[kMadeUpLights] = {1, kHalfRoot, 0, -kHalfRoot, -1, -kHalfRoot, 0, kHalfRoot};
+
 }  // namespace
 
 View make_up_view(const Scene& scene, const View& wanted) {
@@ -36,8 +40,7 @@ std::vector<Light> make_up_lights(const Scene& scene) {
   std::vector<Light> lights;
   const double r = scene.bounding_radius();
   for (int k = 0; k < kMadeUpLights; ++k) {
-    const double a = 2 * elementary::kPi * k / kMadeUpLights;
-    const DVector offset(1.6 * elementary::cos(a), 1 + 0.3 * (k % 2), 1.6 * elementary::sin(a));
+    const DVector offset(1.6 * kCosines[k], 1 + 0.3 * (k % 2), 1.6 * kCosines[(k + 6) % kMadeUpLights]);
     lights.push_back({Vector(scene.centre() + offset * r), Color{1, 1, 1}, 0.25f});
   }
   return lights;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/exact_sign.h"
+
 namespace facemap {
 namespace {
 
@@ -77,8 +79,9 @@ Shader::Surface Shader::surface_at(const Vector& direction, const Camera::Hit& h
   if (unit == DVector(0)) return surface;
   surface.normal = unit;
   if (options_.shadow_terminator_fix && shift != DVector(0)) {
+    // A short lift may be lost in rounding to float32 and leave the point on its face or below: then it is no lift.
     surface.moved = Vector(surface.position + shift);
-    surface.is_moved = true;
+    surface.is_moved = side(face.vertices, surface.moved) == hit.side;
   }
   return surface;
 }
