@@ -1,9 +1,9 @@
 #pragma once
 
-#include <limits>
-
 #include <facemap/face_map.h>
 #include <facemap/surface_point.h>
+
+#include <limits>
 
 namespace facemap {
 
@@ -20,7 +20,7 @@ class Camera : public FaceMap {
     int width = 1024;                          ///< pixels
     int height = 1024;                         ///< pixels
     Builder builder = Builder::Cover;
-    bool keep_all = false;                     ///< keep faces behind full covers too (count_hits needs it)
+    bool keep_all = false;  ///< keep faces behind full covers too (count_hits needs it)
   };
 
   /// Throws Error for options out of range.
@@ -33,9 +33,9 @@ class Camera : public FaceMap {
   struct Hit {
     FaceId face = kNoFace;
     float depth = std::numeric_limits<float>::infinity();  ///< distance along the ray in world units
-    bool strictly_inside = false;  ///< not on an edge or a vertex of the face
-    bool tied = false;             ///< another face is met at exactly the same distance
-    int side = 0;                  ///< of the face, as FaceMap::side
+    bool strictly_inside = false;                          ///< not on an edge or a vertex of the face
+    bool tied = false;                                     ///< another face is met at exactly the same distance
+    int side = 0;                                          ///< of the face, as FaceMap::side
 
     explicit operator bool() const noexcept { return face != kNoFace; }
   };

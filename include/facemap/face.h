@@ -1,9 +1,9 @@
 #pragma once
 
+#include <facemap/vector.h>
+
 #include <array>
 #include <cstdint>
-
-#include <facemap/vector.h>
 
 namespace facemap {
 

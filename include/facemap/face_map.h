@@ -1,16 +1,16 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <span>
-#include <vector>
-
 #include <facemap/counters.h>
 #include <facemap/face.h>
 #include <facemap/projection.h>
 #include <facemap/scene.h>
 #include <facemap/space_vector.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
 
 namespace facemap {
 

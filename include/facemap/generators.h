@@ -1,14 +1,14 @@
 #pragma once
 
+#include <facemap/mesh.h>
+#include <facemap/vector.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <facemap/mesh.h>
-#include <facemap/vector.h>
 
 namespace facemap {
 

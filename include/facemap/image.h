@@ -1,11 +1,11 @@
 #pragma once
 
+#include <facemap/color.h>
+#include <facemap/face.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <vector>
-
-#include <facemap/color.h>
-#include <facemap/face.h>
 
 namespace facemap {
 
@@ -14,10 +14,10 @@ namespace facemap {
 struct Image {
   int width = 0;
   int height = 0;
-  std::vector<Color> pixels;        ///< linear RGB
-  std::vector<FaceId> ids;          ///< face seen by the ray through the pixel's centre; kNoFace: none
-  std::vector<float> depths;        ///< distance along that ray, world units; infinity: none
-  std::vector<std::uint8_t> lights; ///< ceil(light_count/8) bytes a pixel, least significant bit first, 1 = lit
+  std::vector<Color> pixels;         ///< linear RGB
+  std::vector<FaceId> ids;           ///< face seen by the ray through the pixel's centre; kNoFace: none
+  std::vector<float> depths;         ///< distance along that ray, world units; infinity: none
+  std::vector<std::uint8_t> lights;  ///< ceil(light_count/8) bytes a pixel, least significant bit first, 1 = lit
   int light_count = 0;
 
   int light_bytes() const { return (light_count + 7) / 8; }

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <facemap/face.h>
+#include <facemap/vector.h>
+
 #include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include <facemap/face.h>
-#include <facemap/vector.h>
 
 namespace facemap {
 
@@ -19,7 +19,7 @@ inline constexpr std::uint32_t kNoIndex = 0xffffffffu;
 /// Triangles as flat arrays, in the file's order after triangulation. All positions are finite.
 struct Mesh {
   std::vector<Vector> positions;
-  std::vector<Vector> normals;                    ///< need not be of unit length
+  std::vector<Vector> normals;  ///< need not be of unit length
   std::vector<glm::vec2> texture_coordinates;
   std::vector<Vector> colours;                    ///< one a position, RGB in 0..1, or empty
   std::vector<Corners> triangles;                 ///< into positions

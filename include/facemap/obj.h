@@ -1,15 +1,15 @@
 #pragma once
 
+#include <facemap/face.h>
+#include <facemap/material.h>
+#include <facemap/mesh.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
-
-#include <facemap/face.h>
-#include <facemap/material.h>
-#include <facemap/mesh.h>
 
 namespace facemap {
 
@@ -27,16 +27,16 @@ class OBJ {
 
   /// What stood in the file.
   struct Report {
-    std::int64_t vertices = 0;             ///< v
-    std::int64_t texture_coordinates = 0;  ///< vt
-    std::int64_t normals = 0;              ///< vn
-    std::int64_t polygons = 0;             ///< f, as in the file
-    std::int64_t triangles = 0;            ///< after triangulation
-    std::int64_t objects = 0;              ///< o
-    std::int64_t groups = 0;               ///< g
+    std::int64_t vertices = 0;                    ///< v
+    std::int64_t texture_coordinates = 0;         ///< vt
+    std::int64_t normals = 0;                     ///< vn
+    std::int64_t polygons = 0;                    ///< f, as in the file
+    std::int64_t triangles = 0;                   ///< after triangulation
+    std::int64_t objects = 0;                     ///< o
+    std::int64_t groups = 0;                      ///< g
     std::int64_t self_intersecting_polygons = 0;  ///< turned into fans
-    std::vector<Ignored> ignored;          ///< l, p, free-form and unknown statements, in order of first sight
-    std::vector<std::string> warnings;     ///< "file:line: text", one a cause
+    std::vector<Ignored> ignored;                 ///< l, p, free-form and unknown statements, in order of first sight
+    std::vector<std::string> warnings;            ///< "file:line: text", one a cause
   };
 
   /// Limits for files that are not to be trusted.

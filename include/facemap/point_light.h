@@ -12,9 +12,9 @@ class PointLight : public FaceMap {
  public:
   struct Options {
     Builder builder = Builder::Cover;
-    int texels = 0;           ///< width and height of the map; 0: by the number of faces
-    double field_angle = 0;   ///< radians; 0: fitted to the scene, 360 degrees for a light among the faces
-    bool keep_all = false;    ///< keep faces behind full covers too (count_hits needs it)
+    int texels = 0;          ///< width and height of the map; 0: by the number of faces
+    double field_angle = 0;  ///< radians; 0: fitted to the scene, 360 degrees for a light among the faces
+    bool keep_all = false;   ///< keep faces behind full covers too (count_hits needs it)
   };
 
   /// Throws Error if the position is not finite or an option is out of range, a field angle too narrow for
@@ -28,13 +28,16 @@ class PointLight : public FaceMap {
 
   /// What a caller knows of a point it sampled from a surface: at most one of the two.
   struct On {
-    FaceId face = kNoFace;  ///< the point is meant to lie on this face: its projection onto the plane is asked, the face skipped
-    float tolerance = 0;    ///< world units: a face blocks only if the point is farther than this from its plane
+    FaceId face =
+        kNoFace;  ///< the point is meant to lie on this face: its projection onto the plane is asked, the face skipped
+    float tolerance = 0;  ///< world units: a face blocks only if the point is farther than this from its plane
   };
 
   /// Whether nothing stands strictly between the light and a float32 point. No facing test; a point on a
   /// face's plane is not blocked by that face; the light's own position is lit. Exact with Builder::Cover.
-  bool get_lighten_up(const Vector& point, Counters* counters = nullptr) const { return get_lighten_up(point, On(), counters); }
+  bool get_lighten_up(const Vector& point, Counters* counters = nullptr) const {
+    return get_lighten_up(point, On(), counters);
+  }
   bool get_lighten_up(const Vector& point, const On& on, Counters* counters = nullptr) const;
 
   /// Whether the true point that a camera sees is lit: camera and light strictly on the same side of its face,

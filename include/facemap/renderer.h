@@ -1,15 +1,15 @@
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <string>
-#include <vector>
-
 #include <facemap/camera.h>
 #include <facemap/color.h>
 #include <facemap/image.h>
 #include <facemap/point_light.h>
 #include <facemap/scene.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
 
 namespace facemap {
 
@@ -46,14 +46,14 @@ class Renderer {
   };
 
   struct Options {
-    int width = 1024;                        ///< pixels
-    int height = 1024;                       ///< pixels
+    int width = 1024;   ///< pixels
+    int height = 1024;  ///< pixels
     Sampling sampling = Sampling::Grid;
-    int samples = 1;                         ///< a side of the grid in a pixel, 1..16
-    Normals normals = Normals::Smooth;       ///< smooth where the file gives normals or smoothing groups
-    bool shadow_terminator_fix = true;       ///< Hanika 2021; matters with smooth normals only
+    int samples = 1;                    ///< a side of the grid in a pixel, 1..16
+    Normals normals = Normals::Smooth;  ///< smooth where the file gives normals or smoothing groups
+    bool shadow_terminator_fix = true;  ///< Hanika 2021; matters with smooth normals only
     Falloff falloff = Falloff::Constant;
-    Color background{0, 0, 0};               ///< linear RGB
+    Color background{0, 0, 0};  ///< linear RGB
     Builder builder = Builder::Cover;
     bool want_ids = false, want_depths = false, want_lights = false;  ///< planes to fill
   };
@@ -63,7 +63,7 @@ class Renderer {
     std::uint64_t camera_queries = 0, light_queries = 0;
     std::uint64_t upsampled_pixels = 0;
     Counters camera_tests, light_tests;
-    std::size_t map_bytes = 0;               ///< lists and planes of all maps
+    std::size_t map_bytes = 0;  ///< lists and planes of all maps
   };
 
   /// Fraction done (0..1) and the phase's name; called now and then. Return false to stop: render() then throws Error.

@@ -1,13 +1,13 @@
 #pragma once
 
+#include <facemap/material.h>
+#include <facemap/mesh.h>
+#include <facemap/obj.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include <facemap/material.h>
-#include <facemap/mesh.h>
-#include <facemap/obj.h>
 
 namespace facemap {
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <array>
-
 #include <facemap/face.h>
 #include <facemap/vector.h>
+
+#include <array>
 
 namespace facemap {
 

@@ -36,7 +36,10 @@ bool is_zero_or_not_finite(const Vector& v) {
 class Nearest {
  public:
   Nearest(const Scene& scene, const Vector& O, const Vector& d, Counters* counters)
-      : scene_(scene), O_(O), d_(d), length_(std::sqrt(double(d.x) * d.x + double(d.y) * d.y + double(d.z) * d.z)),
+      : scene_(scene),
+        O_(O),
+        d_(d),
+        length_(std::sqrt(double(d.x) * d.x + double(d.y) * d.y + double(d.z) * d.z)),
         counters_(counters) {}
 
   void meet(std::uint32_t id, int side, bool strictly_inside) {

@@ -30,7 +30,9 @@ DVector difference(const Vector& a, const Vector& b) { return DVector(a) - DVect
 }  // namespace
 
 Cone::Radius::Radius(double r)
-    : rho(r), sine(r < kRightAngle ? elementary::sin(r) : 1), cosine(r < kRightAngle ? elementary::cos(r) : 0),
+    : rho(r),
+      sine(r < kRightAngle ? elementary::sin(r) : 1),
+      cosine(r < kRightAngle ? elementary::cos(r) : 0),
       is_small(r < kRightAngle) {}
 
 Cone::Cone(const Triangle& face, int side, const SpaceVector& frame) {

@@ -45,8 +45,8 @@ class Cone {
   double normal_slack_;
   double plane_distance_;  // upper bound
   double farthest_corner_;
-  DVector cap_axis_;    // unit
-  double cap_radius_;   // radians; every direction of the face is within it of the axis, if below 90 degrees
+  DVector cap_axis_;   // unit
+  double cap_radius_;  // radians; every direction of the face is within it of the axis, if below 90 degrees
   double longest_angle_;
 };
 

@@ -74,8 +74,7 @@ class Builder {
       double farthest_beta = 0;
       for (int i = 0; i < 3; ++i) {
         const DVector& c = cone.corner(i);
-        farthest_beta =
-            std::max(farthest_beta, elementary::atan2(std::sqrt(c.x * c.x + c.y * c.y), c.z));
+        farthest_beta = std::max(farthest_beta, elementary::atan2(std::sqrt(c.x * c.x + c.y * c.y), c.z));
       }
       const double beta = farthest_beta + cone.longest_angle();
       if (beta > kLargestBoxAngle || cone.longest_angle() > kLongestBoxEdge) return std::nullopt;
@@ -123,8 +122,8 @@ class Builder {
   void visit_texel(std::uint32_t id, const Cone& cone, int x, int y) {
     const MapPoint centre(x + 0.5, y + 0.5);
     if (is_beyond_antipode(centre)) return;
-    const auto texel = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(projection_.width()) +
-                       static_cast<std::uint32_t>(x);
+    const auto texel =
+        static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(projection_.width()) + static_cast<std::uint32_t>(x);
     const bool keeps_all = out_.cuts.empty();
     if (!keeps_all && Texels::is_hidden(planes_.nearest()[id], out_.cuts[texel])) return;
     const DVector c = projection_.local_from_map(centre);

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <vector>
-
 #include <facemap/projection.h>
 #include <facemap/scene.h>
 #include <facemap/space_vector.h>
+
+#include <vector>
 
 #include "map/face_planes.h"
 #include "map/texel_entry.h"

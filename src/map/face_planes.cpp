@@ -36,9 +36,7 @@ void store(const Vec3<Tracked>& v, double factor, float out[3]) {
   out[2] = static_cast<float>(v.z.value * factor);
 }
 
-double power_of_two(int exponent) {
-  return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
-}
+double power_of_two(int exponent) { return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52); }
 
 // 2^-k for the k with 2^k <= x < 2^(k+1); 1 for 0.
 double inverse_power_of_two(double x) {
@@ -100,8 +98,8 @@ FacePlanesTable::FacePlanesTable(const Scene& scene, const Vector& origin)
     store(n, square, p.normal);
     p.offset = static_cast<float>(offset.value * square * scale_);
     p.normal_error = float_above((kDotRoundings * kFloatHalfUlp * n_length + 2 * n_error) * area);
-    p.offset_error = float_above((kOffsetRoundings * kFloatHalfUlp * std::fabs(offset.value) + 2 * offset.error) *
-                                 area * scale_);
+    p.offset_error =
+        float_above((kOffsetRoundings * kFloatHalfUlp * std::fabs(offset.value) + 2 * offset.error) * area * scale_);
 
     // The larger of the corners' bound and the plane's distance, less what rounding may have added to it.
     const double plane_distance = (std::fabs(offset.value) - 2 * offset.error) / (n_length + 2 * n_error);

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <facemap/scene.h>
+
 #include <cstdint>
 #include <vector>
-
-#include <facemap/scene.h>
 
 #include "math/exact_sign.h"
 #include "simd/kernels.h"

@@ -25,8 +25,8 @@ constexpr double kNarrowestFit = 0x1p-24;
 // Share by which a fitted field is wider than its faces: a rim for the projection's error.
 constexpr double kFieldMargin = 1e-3;
 
-constexpr int kFewestTexels = 64;   // a side
-constexpr int kMostTexels = 2048;   // a side
+constexpr int kFewestTexels = 64;  // a side
+constexpr int kMostTexels = 2048;  // a side
 
 double length(const DVector& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
 
@@ -69,7 +69,8 @@ Projection projection_for(const Scene& scene, const SpaceVector& frame, const Po
   double field_angle = options.field_angle;
   if (field_angle == 0) {
     field_angle = fitted > kWidestFit ? kAllAround : 2 * fitted;
-  } else if (!options.keep_all && field_angle < kAllAround && !(half < elementary::kPi / 2 && field_angle >= 2 * fitted)) {
+  } else if (!options.keep_all && field_angle < kAllAround &&
+             !(half < elementary::kPi / 2 && field_angle >= 2 * fitted)) {
     throw Error("the field angle of a light's map does not hold every face of the scene");
   }
   return Projection(ProjectionKind::Surface, field_angle, texels, texels);

@@ -69,7 +69,7 @@ DVector Projection::local_from_map(const MapPoint& point) const noexcept {
     return {x * scale, y * scale, scale};
   }
   const double r = std::sqrt(dx * dx + dy * dy);
-  const double beta = r * texel_angle_;  // Wang 2022, eq. (17)
+  const double beta = r * texel_angle_;    // Wang 2022, eq. (17)
   const double z = elementary::cos(beta);  // eq. (18)
   if (r == 0) return {0, 0, z};
   // Departs: eq. (21), (22) keep the positive root alone, which mirrors the left half, and divide by dx.

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <array>
-
 #include <facemap/counters.h>
 #include <facemap/vector.h>
+
+#include <array>
 
 #include "math/tracked.h"
 
@@ -48,7 +48,7 @@ struct TruePoint {
 struct GivenPoint {
   Vector P;
   const Triangle* on_face = nullptr;  ///< not degenerate
-  float tolerance = 0;  ///< world units: G blocks only if P is farther than this from G's plane
+  float tolerance = 0;                ///< world units: G blocks only if P is farther than this from G's plane
 };
 
 /// Whether face G (side s_G from L) stands strictly between L and the point. False if s_G is 0. A point on G's

@@ -1,6 +1,7 @@
 #include <facemap/error.h>
 #include <facemap/space_vector.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "simd/floating_point_mode.h"
@@ -16,7 +17,7 @@ DVector cross(const DVector& a, const DVector& b) {
 
 // Divides by the largest component first, so that no square overflows or vanishes. Zero stays zero.
 DVector normalized(const DVector& a) {
-  const double largest = std::fmax(std::fabs(a.x), std::fmax(std::fabs(a.y), std::fabs(a.z)));
+  const double largest = std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
   if (!(largest > 0)) return DVector(0);
   const DVector scaled = a / largest;
   return scaled / std::sqrt(dot(scaled, scaled));

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <facemap/renderer.h>
+
 #include <cstddef>
 #include <functional>
-
-#include <facemap/renderer.h>
 
 #include "render/shade.h"
 

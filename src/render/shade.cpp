@@ -32,9 +32,9 @@ DVector barycentric(const DVector (&v)[3], const DVector& n, const DVector& p) {
 
 struct Shader::Surface {
   SurfacePoint point;
-  DVector position;        // of the true point, rounded to double
-  DVector normal;          // unit, on the camera's side
-  bool is_moved = false;   // by the shadow terminator fix: `moved` is asked instead of the true point
+  DVector position;       // of the true point, rounded to double
+  DVector normal;         // unit, on the camera's side
+  bool is_moved = false;  // by the shadow terminator fix: `moved` is asked instead of the true point
   Vector moved{0};
 };
 

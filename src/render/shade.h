@@ -1,10 +1,10 @@
 #pragma once
 
+#include <facemap/renderer.h>
+
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include <facemap/renderer.h>
 
 namespace facemap {
 
@@ -12,8 +12,8 @@ namespace facemap {
 struct Sample {
   Color color;
   FaceId face = kNoFace;
-  float depth = 0;                    ///< infinity if no face is hit
-  std::vector<std::uint8_t> lights;   ///< as Image::lights, one pixel
+  float depth = 0;                   ///< infinity if no face is hit
+  std::vector<std::uint8_t> lights;  ///< as Image::lights, one pixel
 };
 
 /// White mode: albedo 1; radiance = sum over lights, in index order, of colour * intensity * cos * falloff.

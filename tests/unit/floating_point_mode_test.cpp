@@ -1,7 +1,6 @@
 #include "simd/floating_point_mode.h"
 
 #include <facemap/renderer.h>
-
 #include <gtest/gtest.h>
 
 namespace {

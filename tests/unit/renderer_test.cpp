@@ -1,6 +1,5 @@
 #include <facemap/error.h>
 #include <facemap/renderer.h>
-
 #include <gtest/gtest.h>
 
 #include <cmath>

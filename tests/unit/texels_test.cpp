@@ -28,8 +28,12 @@ TEST(Texels, ListsKeepTheOrderOfTheEntries) {
 TEST(Texels, EntriesAreDroppedOnlyBeyondTheCutAndItsMargin) {
   // A query at the cut may be taken for one a little beyond it: what begins there must still be listed.
   const float cut = 2;
-  const std::vector<float> nearest{1, 2, cut * (1 + Texels::kDepthMargin), cut * (1 + 1.9f * Texels::kDepthMargin),
-                                   cut * (1 + 3 * Texels::kDepthMargin), 9};
+  const std::vector<float> nearest{1,
+                                   2,
+                                   cut * (1 + Texels::kDepthMargin),
+                                   cut * (1 + 1.9f * Texels::kDepthMargin),
+                                   cut * (1 + 3 * Texels::kDepthMargin),
+                                   9};
   const std::vector<TexelEntry> entries{{0, 0}, {0, 1}, {0, 2}, {0, 3}, {0, 4}, {0, 5}};
   const Texels texels(1, entries, nearest.data(), {cut});
   EXPECT_EQ(list(texels, 0), (std::vector<std::uint32_t>{0, 1, 2, 3}));
