@@ -5,15 +5,15 @@
 //
 //   zero_miss [random rays, default 20000000]
 
+#include <facemap/camera.h>
+#include <facemap/scene.h>
+
 #include <chrono>
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <vector>
-
-#include <facemap/camera.h>
-#include <facemap/scene.h>
 
 #include "support/embree_referee.h"
 #include "support/scenes.h"
@@ -88,8 +88,8 @@ int main(int argc, char** argv) {
     for (const auto& [name, sees] : tracers) {
       double nanoseconds = 0;
       const std::uint64_t misses = count_misses(set, sees, nanoseconds);
-      std::printf("%-20s %-16s %10" PRIu64 " of %10" PRIu64 " missed (%.2g %%), %.0f ns a ray\n", set.name, name, misses,
-                  set.count, 100.0 * static_cast<double>(misses) / static_cast<double>(set.count), nanoseconds);
+      std::printf("%-20s %-16s %10" PRIu64 " of %10" PRIu64 " missed (%.2g %%), %.0f ns a ray\n", set.name, name,
+                  misses, set.count, 100.0 * static_cast<double>(misses) / static_cast<double>(set.count), nanoseconds);
       std::fflush(stdout);
       if (&sees == &tracers[0].second && misses > 0) all_hit = false;
     }

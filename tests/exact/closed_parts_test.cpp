@@ -2,16 +2,15 @@
 // faces, for points that a camera outside sees strictly inside their face and untied, on the side that faces the
 // light. (Seen from behind, the light's last step to the point is inside the solid, and its entry has no exit.)
 
+#include <facemap/camera.h>
+#include <facemap/point_light.h>
+#include <facemap/scene.h>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cstdio>
 #include <utility>
 #include <vector>
-
-#include <facemap/camera.h>
-#include <facemap/point_light.h>
-#include <facemap/scene.h>
 
 #include "support/oracle.h"
 #include "support/queries.h"
@@ -140,7 +139,8 @@ TEST(ClosedParts, ExitsAnswerForABoxRestingOnASlab) {
 // Inside out where the top has passed the bottom: the winding number there is -1.
 TEST(ClosedParts, ExitsAnswerForABoxWhoseTopIsPushedThroughItsBottom) {
   Mesh mesh = box({-2, -2, 0}, {2, 2, 2});
-  for (const int top : {4, 5, 6, 7}) mesh.positions[top] = mesh.positions[top] * Vector(0.5f, 0.5f, 0) + Vector(0, 0, -1);
+  for (const int top : {4, 5, 6, 7})
+    mesh.positions[top] = mesh.positions[top] * Vector(0.5f, 0.5f, 0) + Vector(0, 0, -1);
   const Scene scene(joined(mesh, box({3, -1, -2}, {4, 1, 1})));  // with a neighbour that it can shade
   Random random(0x5eed0022);
   Count count;

@@ -1,19 +1,17 @@
 // Which way is right, up and forward, against a projection written a second time from the conventions; and what
 // may not change when a scene is renumbered or scaled.
 
+#include <facemap/camera.h>
+#include <facemap/point_light.h>
+#include <facemap/scene.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <glm/geometric.hpp>
-
-#include <facemap/camera.h>
-#include <facemap/point_light.h>
-#include <facemap/scene.h>
 
 #include "support/queries.h"
 #include "support/scenes.h"
@@ -24,9 +22,7 @@ using namespace facemap;
 using test_scenes::add_triangle;
 using test_scenes::TestScene;
 
-Vector rounded(const DVector& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
+Vector rounded(const DVector& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
 // Right-handed world; sight towards look_at, right = sight x up, up' = right x sight; x to the right, y downwards.
 struct Reference {

@@ -1,6 +1,10 @@
 // Cameras and lights against the referee: random and contrived scenes, questions on the fence, 0 differences.
 // FACEMAP_QUERIES sets how many questions (scripts/verify asks ten million), FACEMAP_SEED which.
 
+#include <facemap/camera.h>
+#include <facemap/error.h>
+#include <facemap/point_light.h>
+#include <facemap/scene.h>
 #include <gtest/gtest.h>
 
 #include <cinttypes>
@@ -10,11 +14,6 @@
 #include <limits>
 #include <map>
 #include <string>
-
-#include <facemap/camera.h>
-#include <facemap/error.h>
-#include <facemap/point_light.h>
-#include <facemap/scene.h>
 
 #include "support/oracle.h"
 #include "support/queries.h"
@@ -95,7 +94,8 @@ class Session {
     const Scene scene(test.mesh);
     const Oracle oracle(scene.mesh());
     for (std::size_t face = 0; face < scene.face_count(); ++face) {
-      ASSERT_EQ(scene.is_kept(face), oracle.is_kept(static_cast<FaceId>(face))) << face << test_queries::write_failure(scene.mesh(), "kept faces");
+      ASSERT_EQ(scene.is_kept(face), oracle.is_kept(static_cast<FaceId>(face)))
+          << face << test_queries::write_failure(scene.mesh(), "kept faces");
     }
     const Tally before = total();
     for (int i = 0; i < kCameras; ++i) {

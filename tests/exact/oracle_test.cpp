@@ -32,17 +32,17 @@ Mesh floor_at(float height, float size) {
 
 SurfacePoint seen(const Oracle& oracle, const Vector& camera, const Vector& d, int face) {
   const Mesh& mesh = oracle.mesh();
-  return {camera, d, {mesh.vertex(face, 0), mesh.vertex(face, 1), mesh.vertex(face, 2)}, face,
-          oracle.side(face, camera)};
+  return {
+      camera, d, {mesh.vertex(face, 0), mesh.vertex(face, 1), mesh.vertex(face, 2)}, face, oracle.side(face, camera)};
 }
 
 TEST(Oracle, KeepsEachTriangleOnceAndNoneWithoutArea) {
   Mesh mesh;
   add_triangle(mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-  add_triangle(mesh, {0, 0, 0}, {1, 1, 1}, {3, 3, 3});                   // on a line
-  add_triangle(mesh, {0, 1, 0}, {1, 0, 0}, {-0.0f, 0, -0.0f});           // the first one, turned around
-  add_triangle(mesh, {0, 0, 0}, {0, 0, 0}, {1, 2, 3});                   // two corners in one place
-  add_triangle(mesh, {0, 0, 0}, {1, 0, 0}, {0.5f, 0x1p-149f, 0});        // as thin as floats allow
+  add_triangle(mesh, {0, 0, 0}, {1, 1, 1}, {3, 3, 3});             // on a line
+  add_triangle(mesh, {0, 1, 0}, {1, 0, 0}, {-0.0f, 0, -0.0f});     // the first one, turned around
+  add_triangle(mesh, {0, 0, 0}, {0, 0, 0}, {1, 2, 3});             // two corners in one place
+  add_triangle(mesh, {0, 0, 0}, {1, 0, 0}, {0.5f, 0x1p-149f, 0});  // as thin as floats allow
   EXPECT_EQ(Oracle(mesh).kept_faces(), (std::vector<facemap::FaceId>{0, 4}));
 }
 
@@ -72,9 +72,9 @@ TEST(Oracle, NearestFaceIsInFrontAndEdgesBelongToBothFaces) {
   EXPECT_TRUE(on_diagonal.tied);
   EXPECT_EQ(view.count_hits({0, 0, -1}), 4);
 
-  EXPECT_EQ(view.nearest({2, 2, -1}).face, 0);                       // a corner
-  EXPECT_EQ(view.nearest({2, 2.0000002f, -1}).face, 3);              // one ulp past it: the lower floor
-  EXPECT_EQ(view.nearest({0, 0, 1}).face, kNoFace);                  // both floors are behind
+  EXPECT_EQ(view.nearest({2, 2, -1}).face, 0);           // a corner
+  EXPECT_EQ(view.nearest({2, 2.0000002f, -1}).face, 3);  // one ulp past it: the lower floor
+  EXPECT_EQ(view.nearest({0, 0, 1}).face, kNoFace);      // both floors are behind
   EXPECT_EQ(view.nearest({0, 0, 0}).face, kNoFace);
   EXPECT_EQ(oracle.from({0, 0, 0}).nearest({1, 0, 0}).face, kNoFace);  // its own plane is seen edge-on
 }
@@ -95,12 +95,12 @@ TEST(Oracle, APointIsDarkBehindAFaceAndLitOnOrBeforeIt) {
   const View light = oracle.from({0, 0, 4});
   const PointLight::On nowhere;
   EXPECT_TRUE(light.is_lit(Vector{0.3f, 0.2f, 1}, nowhere));
-  EXPECT_TRUE(light.is_lit(Vector{0.3f, 0.2f, 0}, nowhere));               // on the plane
-  EXPECT_FALSE(light.is_lit(Vector{0.3f, 0.2f, -0x1p-149f}, nowhere));     // the least that a float can be behind it
-  EXPECT_TRUE(light.is_lit(Vector{3, 0, -1}, nowhere));                    // beside it
-  EXPECT_FALSE(light.is_lit(Vector{1.25f, 0, -1}, nowhere));               // grazes the rim: edges belong to faces
+  EXPECT_TRUE(light.is_lit(Vector{0.3f, 0.2f, 0}, nowhere));            // on the plane
+  EXPECT_FALSE(light.is_lit(Vector{0.3f, 0.2f, -0x1p-149f}, nowhere));  // the least that a float can be behind it
+  EXPECT_TRUE(light.is_lit(Vector{3, 0, -1}, nowhere));                 // beside it
+  EXPECT_FALSE(light.is_lit(Vector{1.25f, 0, -1}, nowhere));            // grazes the rim: edges belong to faces
   EXPECT_TRUE(light.is_lit(Vector{1.2500001f, 0, -1}, nowhere));
-  EXPECT_TRUE(light.is_lit(Vector{0, 0, 4}, nowhere));                     // the light itself
+  EXPECT_TRUE(light.is_lit(Vector{0, 0, 4}, nowhere));  // the light itself
 }
 
 TEST(Oracle, APointMayBeSaidToLieOnAFaceOrNearIt) {
@@ -122,8 +122,8 @@ TEST(Oracle, ASeenPointIsLitOnTheSideThatTheCameraSees) {
   const Vector camera{2, 1, 3}, down{0.125f, 0.0625f, -1};
   const SurfacePoint on_floor = seen(oracle, camera, down, 0);
   EXPECT_TRUE(oracle.from({3, 3, 5}).is_lit(on_floor));
-  EXPECT_FALSE(oracle.from({3, 3, -5}).is_lit(on_floor));     // from behind
-  EXPECT_FALSE(oracle.from({-3, 3, 0}).is_lit(on_floor));     // on the plane: dark
+  EXPECT_FALSE(oracle.from({3, 3, -5}).is_lit(on_floor));      // from behind
+  EXPECT_FALSE(oracle.from({-3, 3, 0}).is_lit(on_floor));      // on the plane: dark
   EXPECT_FALSE(oracle.from({-3, 3, 0}).is_blocked(on_floor));  // though nothing is between
   // P = (2.375, 1.1875, 0). A light at 2 (0,0,1) - P sends its light through the middle of the small square.
   EXPECT_FALSE(oracle.from({-2.375f, -1.1875f, 2}).is_lit(on_floor));

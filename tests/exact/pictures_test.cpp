@@ -1,6 +1,10 @@
 // Whole pictures: random pixels and pixels at edges against the referee; and where a general ray tracer sees
 // another picture, the referee must side with ours. FACEMAP_PICTURES=all takes every scene in full (scripts/verify).
 
+#include <facemap/camera.h>
+#include <facemap/generators.h>
+#include <facemap/renderer.h>
+#include <facemap/scene.h>
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -8,17 +12,11 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <glm/geometric.hpp>
-
-#include <facemap/camera.h>
-#include <facemap/generators.h>
-#include <facemap/renderer.h>
-#include <facemap/scene.h>
 
 #include "support/oracle.h"
 #include "support/random.h"
@@ -72,8 +70,11 @@ Shot from_file(const std::string& path, bool from_inside) {
 class Picture {
  public:
   Picture(const Shot& shot, int side)
-      : shot_(shot), oracle_(shot.scene.mesh()), view_(oracle_.from(shot.view.position)),
-        camera_(make_camera(shot, side)), image_(render(shot, side)) {
+      : shot_(shot),
+        oracle_(shot.scene.mesh()),
+        view_(oracle_.from(shot.view.position)),
+        camera_(make_camera(shot, side)),
+        image_(render(shot, side)) {
     for (const Light& light : shot.lights) lights_.push_back(oracle_.from(light.position));
   }
 
@@ -168,9 +169,11 @@ class Picture {
     Other exact{truth.face, std::vector<bool>(lights_.size(), false)};
     if (truth.face != kNoFace) {
       const Mesh& mesh = shot_.scene.mesh();
-      const SurfacePoint point{shot_.view.position, d,
+      const SurfacePoint point{shot_.view.position,
+                               d,
                                {mesh.vertex(truth.face, 0), mesh.vertex(truth.face, 1), mesh.vertex(truth.face, 2)},
-                               truth.face, truth.side};
+                               truth.face,
+                               truth.side};
       for (std::size_t k = 0; k < lights_.size(); ++k) exact.lit[k] = lights_[k].is_lit(point);
       tally.lit_or_dark += static_cast<int>(lights_.size());
     }
@@ -259,12 +262,13 @@ TEST_P(ModelPictures, PixelsEqualTheOracle) {
   check(from_file(path, path.find("room") != std::string::npos), kFull);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Models, ModelPictures,
-    testing::Values("scenes/chessboard/chessboard.obj", "scenes/nefertiti/nefertiti-lowres.obj",
-                    "scenes/copperBeech/copperBeech.obj", "scenes/hotel_room/hotel_room.obj",
-                    "scenes/typewriter_1930s/typewriter_1930s.obj", "scenes/coconutTree/coconutTree.obj",
-                    "scenes/chandelier-lamp/chandelier-lamp.obj", "scenes/spider_plant/spider_plant.obj",
-                    "classic/armadillo/armadillo.obj", "classic/bunny/stanford-bunny.obj"));
+INSTANTIATE_TEST_SUITE_P(Models, ModelPictures,
+                         testing::Values("scenes/chessboard/chessboard.obj", "scenes/nefertiti/nefertiti-lowres.obj",
+                                         "scenes/copperBeech/copperBeech.obj", "scenes/hotel_room/hotel_room.obj",
+                                         "scenes/typewriter_1930s/typewriter_1930s.obj",
+                                         "scenes/coconutTree/coconutTree.obj",
+                                         "scenes/chandelier-lamp/chandelier-lamp.obj",
+                                         "scenes/spider_plant/spider_plant.obj", "classic/armadillo/armadillo.obj",
+                                         "classic/bunny/stanford-bunny.obj"));
 
 }  // namespace

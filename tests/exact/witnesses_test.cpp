@@ -1,17 +1,15 @@
 // What anybody would say of simple scenes, in words other than the contract's.
 
+#include <facemap/camera.h>
+#include <facemap/point_light.h>
+#include <facemap/scene.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
-
 #include <glm/geometric.hpp>
-
-#include <facemap/camera.h>
-#include <facemap/point_light.h>
-#include <facemap/scene.h>
+#include <limits>
 
 #include "support/scenes.h"
 
@@ -23,9 +21,7 @@ using test_scenes::box;
 using test_scenes::geodesic_sphere;
 using test_scenes::joined;
 
-Vector rounded(const DVector& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
+Vector rounded(const DVector& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
 // A square in the plane z = 0 of two triangles, turned to +z.
 Mesh sheet(float size) {

@@ -1,13 +1,12 @@
 // A closed mesh seen from inside has no crack: no ray leaves it, no light shines through it. The long run, beside
 // a general ray tracer, is bench/zero_miss.
 
-#include <gtest/gtest.h>
-
-#include <cstdio>
-
 #include <facemap/camera.h>
 #include <facemap/point_light.h>
 #include <facemap/scene.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
 
 #include "support/scenes.h"
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <memory>
-
 #include <facemap/mesh.h>
 #include <facemap/vector.h>
+
+#include <memory>
 
 /// A second opinion from a general ray tracer (Embree 3): fast and rounded, so where it differs the oracle decides.
 class EmbreeReferee {

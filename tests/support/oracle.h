@@ -1,14 +1,13 @@
 #pragma once
 
+#include <facemap/mesh.h>
+#include <facemap/point_light.h>
+#include <facemap/surface_point.h>
 #include <gmpxx.h>
 
 #include <array>
 #include <cstdint>
 #include <vector>
-
-#include <facemap/mesh.h>
-#include <facemap/point_light.h>
-#include <facemap/surface_point.h>
 
 /// The referee: which face is nearest, whether a point is lit, by asking every face of a mesh. It has its own
 /// arithmetic and its own reading of the contract and shares no code with src/; it knows no map.

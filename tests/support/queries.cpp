@@ -5,9 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <sstream>
-
 #include <glm/geometric.hpp>
+#include <sstream>
 
 namespace test_queries {
 namespace {
@@ -16,9 +15,7 @@ using facemap::DVector;
 using facemap::Mesh;
 using test_scenes::TestScene;
 
-Vector rounded(const DVector& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
+Vector rounded(const DVector& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
 float stepped(float value, int ulps) {
   for (; ulps > 0; --ulps) value = std::nextafterf(value, HUGE_VALF);
@@ -74,8 +71,8 @@ void set_seen(LightQuery& query, const Mesh& mesh, const Vector& camera, const V
 
 // The true point of `face` on a ray to `target`; none if the rounded ray misses the face. Another face may stand
 // in front of it.
-bool see(LightQuery& query, const oracle::Oracle& oracle, const oracle::View& view, FaceId face,
-         const DVector& target, Random& random) {
+bool see(LightQuery& query, const oracle::Oracle& oracle, const oracle::View& view, FaceId face, const DVector& target,
+         Random& random) {
   const Vector d = nudged(rounded(target - DVector(view.origin())), random);
   if (!is_finite(d) || !view.meets(face, d)) return false;
   set_seen(query, oracle.mesh(), view.origin(), d, face, oracle.side(face, view.origin()));
@@ -113,8 +110,8 @@ void give(LightQuery& query, const TestScene& scene, const oracle::Oracle& oracl
       break;
     }
     case 3:  // the shadow of a vertex on another face's plane
-      at = shadow_on_plane(f, light, spot_on(corners_of(mesh, any_face(mesh, random), random), edge_or_vertex(random),
-                                             random));
+      at = shadow_on_plane(f, light,
+                           spot_on(corners_of(mesh, any_face(mesh, random), random), edge_or_vertex(random), random));
       break;
     case 4:  // on a face's plane, outside it
       at = f.a + double(random.between(-2, 3)) * (f.b - f.a) + double(random.between(-2, 3)) * (f.c - f.a);
@@ -144,15 +141,22 @@ CameraQuery make_camera_query(const TestScene& scene, const Vector& camera, Rand
   const DVector K(camera);
   switch (random.below(8)) {
     case 0:
-    case 1: return {nudged(rounded(f.a - K), random), true};
-    case 2: return {nudged(rounded(f.a + f.b - 2.0 * K), random), true};  // towards the edge's midpoint
-    case 3: return {nudged(rounded(spot_on(f, Spot::Edge, random) - K), random), true};
-    case 4: return {nudged(rounded(double(random.between(1, 4)) * (f.a - K) + double(random.between(1, 4)) * (f.b - K)),
-                           random), true};
+    case 1:
+      return {nudged(rounded(f.a - K), random), true};
+    case 2:
+      return {nudged(rounded(f.a + f.b - 2.0 * K), random), true};  // towards the edge's midpoint
+    case 3:
+      return {nudged(rounded(spot_on(f, Spot::Edge, random) - K), random), true};
+    case 4:
+      return {
+          nudged(rounded(double(random.between(1, 4)) * (f.a - K) + double(random.between(1, 4)) * (f.b - K)), random),
+          true};
     case 5:  // along an axis or a diagonal
       return {nudged(Vector(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)), random), true};
-    case 6: return {rounded(spot_on(f, Spot::Inside, random) - K), false};
-    default: return {rounded(random.direction()), false};
+    case 6:
+      return {rounded(spot_on(f, Spot::Inside, random) - K), false};
+    default:
+      return {rounded(random.direction()), false};
   }
 }
 
@@ -181,7 +185,8 @@ LightQuery make_light_query(const TestScene& scene, const oracle::Oracle& oracle
       is_seen = see_nearest(query, oracle, view, spot_on(f, Spot::Inside, random), random);
       query.is_aimed = false;
       break;
-    default: break;
+    default:
+      break;
   }
   if (!is_seen) give(query, scene, oracle, light, random);
   return query;

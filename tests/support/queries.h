@@ -1,10 +1,10 @@
 #pragma once
 
-#include <filesystem>
-#include <string>
-
 #include <facemap/point_light.h>
 #include <facemap/surface_point.h>
+
+#include <filesystem>
+#include <string>
 
 #include "support/oracle.h"
 #include "support/scenes.h"
@@ -33,8 +33,8 @@ struct LightQuery {
 };
 
 /// `view` is the camera's, from which a seen point is seen; `light` is to be asked.
-LightQuery make_light_query(const test_scenes::TestScene& scene, const oracle::Oracle& oracle,
-                            const oracle::View& view, const Vector& light, Random& random);
+LightQuery make_light_query(const test_scenes::TestScene& scene, const oracle::Oracle& oracle, const oracle::View& view,
+                            const Vector& light, Random& random);
 
 /// For a failed test: hexadecimal floats, so that nothing is lost.
 std::string text(const Vector& v);

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <facemap/vector.h>
+
 #include <cmath>
 #include <cstdint>
-
-#include <facemap/vector.h>
 
 /// Random numbers that are the same on every machine: splitmix64 (Steele, Lea, Flood 2014).
 class Random {

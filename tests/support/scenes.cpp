@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <map>
 #include <utility>
 #include <vector>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 namespace test_scenes {
 namespace {
@@ -15,9 +14,7 @@ namespace {
 using facemap::Corners;
 using facemap::DVector;
 
-Vector rounded(const DVector& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
+Vector rounded(const DVector& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
 Vector lattice_point(Random& random, int reach) {
   const int x = random.between(-reach, reach), y = random.between(-reach, reach), z = random.between(-reach, reach);
@@ -97,7 +94,7 @@ Mesh coplanar(int face_count, Random& random) {
     };
     const Vector a = point(), b = point(), c = point();
     add_triangle(mesh, a, b, c);
-    if (random.chance(0.1)) add_triangle(mesh, b, a, c);                          // a duplicate turned around
+    if (random.chance(0.1)) add_triangle(mesh, b, a, c);                             // a duplicate turned around
     if (random.chance(0.1)) add_triangle(mesh, a, b, c + lattice_point(random, 1));  // a fold
   }
   return mesh;
@@ -139,23 +136,32 @@ Mesh fan(int face_count, Random& random) {
   const std::uint32_t centre = add_vertex(mesh, apex);
   for (int i = 0; i < face_count; ++i) add_vertex(mesh, rim(i));
   for (int i = 0; i < face_count; ++i) {
-    mesh.triangles.push_back({centre, static_cast<std::uint32_t>(1 + i),
-                              static_cast<std::uint32_t>(1 + (i + 1) % face_count)});
+    mesh.triangles.push_back(
+        {centre, static_cast<std::uint32_t>(1 + i), static_cast<std::uint32_t>(1 + (i + 1) % face_count)});
   }
   return mesh;
 }
 
 Mesh make_mesh(Kind kind, int face_count, Random& random) {
   switch (kind) {
-    case Kind::Soup: return soup(face_count, random);
-    case Kind::Patch: return patch(face_count, random);
-    case Kind::Slivers: return slivers(face_count, random);
-    case Kind::Lattice: return lattice(face_count, random);
-    case Kind::Coplanar: return coplanar(face_count, random);
-    case Kind::Boxes: return boxes(face_count, random);
-    case Kind::Ball: return ball(face_count, random);
-    case Kind::Shell: return shell(random);
-    case Kind::Fan: return fan(face_count, random);
+    case Kind::Soup:
+      return soup(face_count, random);
+    case Kind::Patch:
+      return patch(face_count, random);
+    case Kind::Slivers:
+      return slivers(face_count, random);
+    case Kind::Lattice:
+      return lattice(face_count, random);
+    case Kind::Coplanar:
+      return coplanar(face_count, random);
+    case Kind::Boxes:
+      return boxes(face_count, random);
+    case Kind::Ball:
+      return ball(face_count, random);
+    case Kind::Shell:
+      return shell(random);
+    case Kind::Fan:
+      return fan(face_count, random);
   }
   return {};
 }
@@ -221,13 +227,13 @@ Mesh uv_sphere(int slices, int stacks, const DVector& centre, double radius) {
 
 Mesh geodesic_sphere(int splits, const DVector& centre, double radius) {
   const double g = (1 + std::sqrt(5.0)) / 2;
-  std::vector<DVector> unit = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                               {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+  std::vector<DVector> unit = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                               {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
   for (DVector& v : unit) v = glm::normalize(v);
   Mesh mesh;
-  mesh.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},   {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-                    {3, 8, 9},   {4, 9, 5},  {2, 4, 11},  {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+  mesh.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                    {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   for (int split = 0; split < splits; ++split) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
     const auto middle = [&](std::uint32_t i, std::uint32_t j) {
@@ -288,19 +294,28 @@ Vector make_origin(const TestScene& scene, Random& random) {
   const Vector a = mesh.vertex(face, 0), b = mesh.vertex(face, 1), c = mesh.vertex(face, 2);
   const DVector centre(scene.centre);
   switch (random.below(12)) {
-    case 0: return a;
-    case 1: return (a + b) * 0.5f;
-    case 2: return a + 2.0f * (b - a);                  // on an edge's line, outside it
-    case 3: return a + (b - a) + (c - a);               // on a face's plane, outside it
-    case 4: return rounded((DVector(a) + DVector(b) + DVector(c)) / 3.0);  // on a face, or as near as floats are
-    case 5: return scene.centre;
-    case 6: return rounded(centre + 0.3 * scene.radius * random.in_cube());
-    case 7: return rounded(centre + scene.radius * std::pow(10.0, random.between(1.0, 5.0)) * random.direction());
+    case 0:
+      return a;
+    case 1:
+      return (a + b) * 0.5f;
+    case 2:
+      return a + 2.0f * (b - a);  // on an edge's line, outside it
+    case 3:
+      return a + (b - a) + (c - a);  // on a face's plane, outside it
+    case 4:
+      return rounded((DVector(a) + DVector(b) + DVector(c)) / 3.0);  // on a face, or as near as floats are
+    case 5:
+      return scene.centre;
+    case 6:
+      return rounded(centre + 0.3 * scene.radius * random.in_cube());
+    case 7:
+      return rounded(centre + scene.radius * std::pow(10.0, random.between(1.0, 5.0)) * random.direction());
     case 8:
     case 9:
       if (scene.lattice > 0) return scene.centre + static_cast<float>(scene.lattice) * lattice_point(random, 8);
       [[fallthrough]];
-    default: return rounded(centre + scene.radius * random.between(1.1, 4.0) * random.direction());
+    default:
+      return rounded(centre + scene.radius * random.between(1.1, 4.0) * random.direction());
   }
 }
 

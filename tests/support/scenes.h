@@ -1,8 +1,8 @@
 #pragma once
 
-#include <string>
-
 #include <facemap/mesh.h>
+
+#include <string>
 
 #include "support/random.h"
 
@@ -16,20 +16,20 @@ struct TestScene {
   std::string name;
   Mesh mesh;
   Vector centre{0};
-  double radius = 1;     ///< world units: about how far the scene reaches from its centre
-  double lattice = 0;    ///< world units: all coordinates, less the centre's, are multiples of it; 0: no lattice
+  double radius = 1;   ///< world units: about how far the scene reaches from its centre
+  double lattice = 0;  ///< world units: all coordinates, less the centre's, are multiples of it; 0: no lattice
 };
 
 enum class Kind {
-  Soup,        ///< random triangles of all sizes
-  Patch,       ///< a rough height field: shared edges and vertices
-  Slivers,     ///< triangles 2^-6 to 2^-20 times as wide as they are long, many sharing an edge
-  Lattice,     ///< random triangles with small integer corners: exact ties abound
-  Coplanar,    ///< overlapping triangles in few planes, duplicates and folds
-  Boxes,       ///< axis-parallel boxes with integer corners that touch each other
-  Ball,        ///< a convex closed mesh
-  Shell,       ///< few large faces around the centre: around the axis and across the antipode of what looks from there
-  Fan,         ///< all faces share one vertex, in a plane or a cone
+  Soup,      ///< random triangles of all sizes
+  Patch,     ///< a rough height field: shared edges and vertices
+  Slivers,   ///< triangles 2^-6 to 2^-20 times as wide as they are long, many sharing an edge
+  Lattice,   ///< random triangles with small integer corners: exact ties abound
+  Coplanar,  ///< overlapping triangles in few planes, duplicates and folds
+  Boxes,     ///< axis-parallel boxes with integer corners that touch each other
+  Ball,      ///< a convex closed mesh
+  Shell,     ///< few large faces around the centre: around the axis and across the antipode of what looks from there
+  Fan,       ///< all faces share one vertex, in a plane or a cone
 };
 inline constexpr int kKindCount = 9;
 
