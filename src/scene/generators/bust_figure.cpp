@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-
 #include <glm/geometric.hpp>
 
 #include "math/elementary.h"
@@ -16,10 +15,10 @@ namespace {
 double skull_and_jaw(const DVector& p) {
   double d = ellipsoid(p, {0, 0.25, -0.12}, {0.72, 0.82, 0.90});
   d = joined(d, ellipsoid(p, {0, -0.35, 0.22}, {0.57, 0.76, 0.62}), 0.20);
-  d = joined(d, limb(p, {0.40, -0.60, 0.0}, 0.13, {0.12, -0.99, 0.62}, 0.15), 0.20);   // jaw
-  d = joined(d, ball(p, {0, -1.0, 0.70}, 0.155), 0.12);                                // chin
-  d = joined(d, ellipsoid(p, {0.38, -0.27, 0.49}, {0.20, 0.15, 0.20}), 0.25);          // cheek bone
-  d = joined(d, ellipsoid(p, {0, -0.66, 0.60}, {0.33, 0.27, 0.27}), 0.18);             // around the teeth
+  d = joined(d, limb(p, {0.40, -0.60, 0.0}, 0.13, {0.12, -0.99, 0.62}, 0.15), 0.20);  // jaw
+  d = joined(d, ball(p, {0, -1.0, 0.70}, 0.155), 0.12);                               // chin
+  d = joined(d, ellipsoid(p, {0.38, -0.27, 0.49}, {0.20, 0.15, 0.20}), 0.25);         // cheek bone
+  d = joined(d, ellipsoid(p, {0, -0.66, 0.60}, {0.33, 0.27, 0.27}), 0.18);            // around the teeth
   return d;
 }
 
@@ -48,18 +47,21 @@ double nose(double d, const DVector& p) {
 }
 
 // A limb in two parts, bent in the middle.
-double bent_limb(const DVector& p, const DVector& a, double radius_a, const DVector& b, double radius_b, const DVector& c,
-                 double radius_c) {
+double bent_limb(const DVector& p, const DVector& a, double radius_a, const DVector& b, double radius_b,
+                 const DVector& c, double radius_c) {
   return std::min(limb(p, a, radius_a, b, radius_b), limb(p, b, radius_b, c, radius_c));
 }
 
 double mouth(double d, const DVector& p) {
   d = carved(d, limb(p, {0, -0.55, 0.945}, 0.026, {0, -0.63, 0.945}, 0.030), 0.05);  // below the nose
-  double upper = bent_limb(p, {0.05, -0.670, 0.864}, 0.042, {0.15, -0.692, 0.836}, 0.035, {0.245, -0.716, 0.786}, 0.016);
+  double upper =
+      bent_limb(p, {0.05, -0.670, 0.864}, 0.042, {0.15, -0.692, 0.836}, 0.035, {0.245, -0.716, 0.786}, 0.016);
   upper = joined(upper, ball(p, {0, -0.682, 0.866}, 0.040), 0.03);
-  const double lower = bent_limb(p, {0, -0.784, 0.856}, 0.054, {0.12, -0.774, 0.834}, 0.046, {0.225, -0.732, 0.786}, 0.016);
+  const double lower =
+      bent_limb(p, {0, -0.784, 0.856}, 0.054, {0.12, -0.774, 0.834}, 0.046, {0.225, -0.732, 0.786}, 0.016);
   d = joined(joined(d, upper, 0.03), lower, 0.04);
-  d = carved(d, bent_limb(p, {0, -0.728, 0.915}, 0.016, {0.14, -0.732, 0.868}, 0.018, {0.26, -0.716, 0.808}, 0.014), 0.025);
+  d = carved(d, bent_limb(p, {0, -0.728, 0.915}, 0.016, {0.14, -0.732, 0.868}, 0.018, {0.26, -0.716, 0.808}, 0.014),
+             0.025);
   return carved(d, limb(p, {0, -0.890, 0.93}, 0.06, {0.12, -0.875, 0.89}, 0.04), 0.10);  // above the chin
 }
 
@@ -104,7 +106,8 @@ double hair(double d, const DVector& p) {
   if (p.z > 0) volume += 0.035 * p.z * elementary::exp(-p.x * p.x / 0.002);  // the parting
   const DVector knot(0, -0.02, -1.0), k = p - knot;
   const double coil = elementary::atan2(k.x, k.y);
-  const double bun = ellipsoid(p, knot, {0.34, 0.34, 0.27}) + 0.02 * elementary::cos(5 * coil + 26 * std::sqrt(k.x * k.x + k.y * k.y));
+  const double bun =
+      ellipsoid(p, knot, {0.34, 0.34, 0.27}) + 0.02 * elementary::cos(5 * coil + 26 * std::sqrt(k.x * k.x + k.y * k.y));
   return joined(d, joined(volume, bun, 0.05), 0.03);
 }
 

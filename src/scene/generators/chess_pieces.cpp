@@ -1,7 +1,6 @@
 #include "scene/generators/chess_pieces.h"
 
 #include <cmath>
-
 #include <glm/geometric.hpp>
 
 #include "math/elementary.h"
@@ -111,8 +110,8 @@ Ring open_slit(Solid& solid, const Mitre& mitre, const Ring& lower, double heigh
 
 Outline cross_outline() {
   const double arm = 0.028, end = 0.052, reach = 0.11, top = 0.25, middle = 0.14;
-  const Outline right{{end, 0},        {arm, middle - arm}, {reach, middle - end}, {reach, middle + end},
-                      {arm, middle + arm}, {end, top}};
+  const Outline right{{end, 0},  {arm, middle - arm}, {reach, middle - end}, {reach, middle + end}, {arm, middle + arm},
+                      {end, top}};
   Outline outline = right;
   for (auto p = right.rbegin(); p != right.rend(); ++p) outline.push_back({-p->x, p->y});
   return outline;

@@ -15,7 +15,7 @@ Solid make_pawn(const Turning& turning);
 Solid make_rook(const Turning& turning);
 Solid make_bishop(const Turning& turning);  ///< the slit of its mitre opens towards +x
 Solid make_queen(const Turning& turning);
-Solid make_king(const Turning& turning);    ///< the arms of its cross point to +x and -x
+Solid make_king(const Turning& turning);  ///< the arms of its cross point to +x and -x
 
 /// A horse's head looking towards +x on a turned foot. `rings` along the neck and head, `sides` around it.
 struct Carving {

@@ -13,7 +13,7 @@ constexpr double kEdge = kFiles / 2.0;
 constexpr double kBevel = 0.05;
 constexpr double kTop = 0.03;    // the face of a square above the grooves between squares
 constexpr double kFelt = 0.004;  // what a piece stands above its square
-constexpr int kPits = 8;  // pits along a side of a dark square
+constexpr int kPits = 8;         // pits along a side of a dark square
 
 DVector on_board(double file, double rank) { return {file - kEdge, 0, kEdge - rank}; }
 
@@ -64,8 +64,8 @@ void add_dark_square(Solid& board, int file, int rank) {
 
 // Frame, sides and bottom: mitred mouldings around the field; every square's edge ends on the innermost line.
 void add_frame(Solid& board) {
-  constexpr double kRings[][2] = {{0.05, 0.05}, {0.10, 0.07},  {0.38, 0.07},  {0.44, 0.06},
-                                  {0.48, 0.02}, {0.48, -0.18}, {0.52, -0.22}, {0.58, -0.26}, {0.58, -0.38}};
+  constexpr double kRings[][2] = {{0.05, 0.05},  {0.10, 0.07},  {0.38, 0.07},  {0.44, 0.06}, {0.48, 0.02},
+                                  {0.48, -0.18}, {0.52, -0.22}, {0.58, -0.26}, {0.58, -0.38}};
   Ring border;
   for (int k = 0; k < kFiles; ++k) border.push_back(square_corners(k, 0)[0]);
   for (int k = 0; k < kFiles; ++k) border.push_back(square_corners(kFiles - 1, k)[1]);

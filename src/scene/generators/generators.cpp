@@ -1,6 +1,5 @@
-#include <facemap/generators.h>
-
 #include <facemap/error.h>
+#include <facemap/generators.h>
 
 #include "scene/generators/scene_builder.h"
 
@@ -16,6 +15,7 @@ constexpr Generator kGenerators[] = {
     {"chessboard", generators::make_chessboard},
     {"grass", generators::make_grass},
     {"bust", generators::make_bust},
+    {"typewriter", generators::make_typewriter},
 };
 
 }  // namespace

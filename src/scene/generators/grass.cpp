@@ -1,5 +1,4 @@
 #include <cmath>
-
 #include <glm/geometric.hpp>
 
 #include "math/elementary.h"
@@ -39,7 +38,8 @@ double growth(double x, double z) {
 // How far the earth's side stands out at distance `along` around the turf, `down` from 0 at the top to 1 below.
 double side_relief(double along, double down) {
   using elementary::sin;
-  const double lumps = sin(2.3 * along + 3 * down) + 0.6 * sin(5.9 * along - 7 * down + 1) + 0.4 * sin(11 * along + 9 * down);
+  const double lumps =
+      sin(2.3 * along + 3 * down) + 0.6 * sin(5.9 * along - 7 * down + 1) + 0.4 * sin(11 * along + 9 * down);
   return 0.06 * lumps - 0.5 * down * down;
 }
 
@@ -81,7 +81,7 @@ Solid make_turf(int detail) {
 
 struct Blade {
   DVector root;
-  double heading;    // of its bend, about the vertical
+  double heading;  // of its bend, about the vertical
   double length, half_width;
   double lean, bend;  // angle from the vertical at the root, and what the tip adds
   double twist;

@@ -84,4 +84,29 @@ Solid lathe(const Profile& profile, int segments) {
   return solid;
 }
 
+Solid sweep(const Outline& section, double from, double to, int segments) {
+  Solid solid;
+  const std::vector<int> groups = crease_groups(section, true);
+  const std::size_t n = section.size();
+  std::vector<Ring> rings;
+  for (int k = 0; k <= segments; ++k) {
+    const double angle = from + (to - from) * k / segments;
+    const double c = elementary::cos(angle), s = elementary::sin(angle);
+    Ring ring;
+    for (const glm::dvec2& p : section) ring.push_back(solid.add_point({p.x * c, p.y, -p.x * s}));
+    rings.push_back(std::move(ring));
+  }
+  for (int k = 0; k < segments; ++k) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t j = (i + 1) % n;
+      solid.add_quad(rings[k][i], rings[k + 1][i], rings[k + 1][j], rings[k][j], groups[i]);
+    }
+  }
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    solid.add_triangle(rings[0][0], rings[0][i], rings[0][i + 1], 0);
+    solid.add_triangle(rings[segments][0], rings[segments][i + 1], rings[segments][i], 0);
+  }
+  return solid;
+}
+
 }  // namespace facemap::generators

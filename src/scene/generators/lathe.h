@@ -42,4 +42,8 @@ Solid lathe(const Profile& profile, int segments);
 /// Returns the last loop, empty if it ends in a pole.
 Ring lathe_onto(Solid& solid, const Profile& profile, int segments, const Ring& first);
 
+/// Part of a ring about the y axis: a convex section (radius, height), counter-clockwise, swept over the angles
+/// `from` to `to` (0 at +x, growing towards -z), with flat ends.
+Solid sweep(const Outline& section, double from, double to, int segments);
+
 }  // namespace facemap::generators

@@ -1,8 +1,8 @@
-#include <charconv>
-#include <fstream>
-
 #include <facemap/error.h>
 #include <facemap/generators.h>
+
+#include <charconv>
+#include <fstream>
 
 namespace facemap {
 namespace {

@@ -1,9 +1,8 @@
 #include "scene/generators/outline.h"
 
 #include <cmath>
-#include <numeric>
-
 #include <glm/geometric.hpp>
+#include <numeric>
 
 #include "math/elementary.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <vector>
-
 #include <facemap/mesh.h>
+
+#include <vector>
 
 namespace facemap::generators {
 

@@ -2,9 +2,7 @@
 
 namespace facemap::generators {
 
-void SceneBuilder::start_part(const std::string& name) {
-  scene_.parts.push_back({name, scene_.mesh.triangles.size()});
-}
+void SceneBuilder::start_part(const std::string& name) { scene_.parts.push_back({name, scene_.mesh.triangles.size()}); }
 
 void SceneBuilder::place(const Solid& solid, const Placement& placement) {
   Mesh& mesh = scene_.mesh;

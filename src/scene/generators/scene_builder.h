@@ -1,8 +1,8 @@
 #pragma once
 
-#include <string>
-
 #include <facemap/generators.h>
+
+#include <string>
 
 #include "scene/generators/solids.h"
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-
 #include <glm/geometric.hpp>
 
 #include "math/elementary.h"
@@ -47,8 +46,8 @@ DVector slope(const Field& field, const DVector& p) {
   return sum / (4 * h);
 }
 
-// One step of smoothing: each point moves towards the middle of its four neighbours in the net, along the surface, and back
-// onto it. Steep places, where rays are sparse, get their share of points.
+// One step of smoothing: each point moves towards the middle of its four neighbours in the net, along the surface, and
+// back onto it. Steep places, where rays are sparse, get their share of points.
 void relax(Solid& solid, const Field& field, const std::vector<Ring>& net) {
   constexpr double kPull = 0.6;
   std::vector<DVector> moved_points = solid.points;
@@ -57,7 +56,8 @@ void relax(Solid& solid, const Field& field, const std::vector<Ring>& net) {
     for (std::size_t j = 0; j < n; ++j) {
       const std::vector<DVector>& at = solid.points;
       const DVector here = at[net[i][j]];
-      const DVector middle = 0.25 * (at[net[i - 1][j]] + at[net[i + 1][j]] + at[net[i][(j + 1) % n]] + at[net[i][(j + n - 1) % n]]);
+      const DVector middle =
+          0.25 * (at[net[i - 1][j]] + at[net[i + 1][j]] + at[net[i][(j + 1) % n]] + at[net[i][(j + n - 1) % n]]);
       const DVector target = here + kPull * (middle - here), down = slope(field, target);
       const double steepness = dot(down, down);
       const double step = steepness > 0.05 ? field(target) / steepness : 0.0;
@@ -97,7 +97,8 @@ Solid wrap(const Field& field, const std::vector<NetRow>& rows, const NetColumns
   std::vector<Ring> net;
   for (const NetRow& row : rows) {
     Ring ring;
-    for (double turn : columns) ring.push_back(solid.add_point(first_exit(field, {0, row.y, row.z}, direction(row, turn))));
+    for (double turn : columns)
+      ring.push_back(solid.add_point(first_exit(field, {0, row.y, row.z}, direction(row, turn))));
     if (!net.empty()) bridge(solid, ring, net.back(), 1);
     net.push_back(std::move(ring));
   }

@@ -1,7 +1,7 @@
 #include "scene/generators/solids.h"
 
+#include <algorithm>
 #include <cmath>
-
 #include <glm/geometric.hpp>
 
 #include "math/elementary.h"
@@ -147,6 +147,25 @@ Solid extrude(const Outline& outline, double depth, double bevel) {
     solid.add_triangle(front_end[t[0]], front_end[t[1]], front_end[t[2]], 0);
     solid.add_triangle(back_end[t[0]], back_end[t[2]], back_end[t[1]], 0);
   }
+  return solid;
+}
+
+Solid sheet(const Outline& line, double thickness, double width) {
+  Solid solid;
+  Outline shifted;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const glm::dvec2 along = normalize(line[std::min(i + 1, line.size() - 1)] - line[i > 0 ? i - 1 : 0]);
+    shifted.push_back(line[i] + thickness * glm::dvec2(-along.y, along.x));
+  }
+  const Ring right_back = add_outline(solid, line, -width / 2), right_front = add_outline(solid, line, width / 2);
+  const Ring left_back = add_outline(solid, shifted, -width / 2), left_front = add_outline(solid, shifted, width / 2);
+  bridge_open(solid, right_back, right_front, 1);
+  bridge_open(solid, left_front, left_back, 2);
+  bridge_open(solid, right_front, left_front, 3);
+  bridge_open(solid, left_back, right_back, 3);
+  const std::size_t last = line.size() - 1;
+  solid.add_quad(right_back[0], right_front[0], left_front[0], left_back[0], 0);
+  solid.add_quad(right_front[last], right_back[last], left_back[last], left_front[last], 0);
   return solid;
 }
 

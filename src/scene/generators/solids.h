@@ -1,12 +1,11 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
-#include <glm/geometric.hpp>
-
 #include <facemap/mesh.h>
 #include <facemap/vector.h>
+
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <vector>
 
 #include "scene/generators/outline.h"
 
@@ -70,9 +69,13 @@ void cap_right(Solid& solid, const Ring& ring, std::uint32_t pole, int group);
 Solid box(const DVector& lower, const DVector& upper, double bevel);
 
 /// A simple closed outline in the plane z = 0, counter-clockwise, stretched from z = -depth / 2 to depth / 2. The
-/// edges of both ends are cut at 45 degrees by `bevel` (0: sharp). Sides are smooth where the outline turns by
-/// less than kCreaseAngleCosine.
+/// edges of both ends are cut at 45 degrees by `bevel` (0: sharp); edges next to a convex crease must be longer
+/// than it. Sides are smooth where the outline turns by less than kCreaseAngleCosine.
 Solid extrude(const Outline& outline, double depth, double bevel);
+
+/// A closed sheet: a line in the plane z = 0, given a thickness to its left and stretched from z = -width / 2 to
+/// width / 2.
+Solid sheet(const Outline& line, double thickness, double width);
 
 /// A round bar along a path, `sides` points around, with flat closed ends. `radii`: one a point of the path.
 Solid bar(const std::vector<DVector>& path, const std::vector<double>& radii, int sides);
