@@ -122,21 +122,45 @@ PolygonCutter::Result PolygonCutter::clip_ears() {
     previous_[i] = i == 0 ? left_ - 1 : i - 1;
   }
   triangles_.clear();
+  at_ = 0;
+  for (std::size_t corner = 0; corner < points_.size(); ++corner, at_ = next_[at_]) clip_spikes();
   find_blockers();
-  at_ = 1;
   while (left_ > 3) {
     if (!clip_some_ear() && !clip_some_flat_corner()) return Result::SelfIntersecting;  // or out of work
+    clip_spikes();
   }
   if (turn_at(at_) < 0) return Result::SelfIntersecting;
   triangles_.push_back({previous_[at_], at_, next_[at_]});
   return Result::Cut;
 }
 
+/// Clips corners at which the outline turns back on itself or stands still, at_ and the next, and those that come to
+/// light by it. They hold no area, and left where they are would make ears outside the polygon.
+void PolygonCutter::clip_spikes() {
+  while (left_ > 3) {
+    if (is_spike(at_)) {
+      clip(at_);
+    } else if (is_spike(next_[at_])) {
+      clip(next_[at_]);
+    } else {
+      return;
+    }
+  }
+}
+
+bool PolygonCutter::is_spike(std::uint32_t corner) const {
+  if (turn_at(corner) != 0) return false;
+  const PlanePoint a = points_[previous_[corner]], b = points_[corner], c = points_[next_[corner]];
+  const bool goes_on = a.x != c.x ? std::min(a.x, c.x) < b.x && b.x < std::max(a.x, c.x)
+                                  : std::min(a.y, c.y) < b.y && b.y < std::max(a.y, c.y);
+  return !goes_on;
+}
+
 /// If any corner lies in an ear, one that does not turn left does; and clipping makes no new ones of these.
 void PolygonCutter::find_blockers() {
   order_.clear();
-  for (std::uint32_t i = 0; i < left_; ++i) {
-    if (turn_at(i) <= 0) order_.push_back(i);
+  for (std::uint32_t i = 0; i < points_.size(); ++i) {
+    if (next_[i] != kNoIndex && turn_at(i) <= 0) order_.push_back(i);
   }
   std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
     return points_[a].x != points_[b].x ? points_[a].x < points_[b].x : a < b;
@@ -203,7 +227,7 @@ void PolygonCutter::clip(std::uint32_t corner) {
   previous_[after] = before;
   next_[corner] = kNoIndex;
   --left_;
-  at_ = after;
+  at_ = before;  // both neighbours come next: they have changed
 }
 
 }  // namespace facemap

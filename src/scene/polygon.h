@@ -39,6 +39,8 @@ class PolygonCutter {
   bool is_strictly_convex() const;
   bool crosses_itself();
   Result clip_ears();
+  void clip_spikes();
+  bool is_spike(std::uint32_t corner) const;
   void find_blockers();
   bool clip_some_ear();
   bool clip_some_flat_corner();
