@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "math/elementary.h"
+#include "math/dvector.h"
 
 namespace facemap {
 namespace {
@@ -17,13 +17,6 @@ constexpr double kCrossError = 0x1p-47;
 constexpr double kDotError = 0x1p-46;
 
 constexpr double kRightAngle = elementary::kPi / 2;
-
-double dot(const DVector& a, const DVector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-double length(const DVector& a) { return std::sqrt(dot(a, a)); }
-DVector cross(const DVector& a, const DVector& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-double angle_between(const DVector& a, const DVector& b) { return elementary::atan2(length(cross(a, b)), dot(a, b)); }
 
 DVector difference(const Vector& a, const Vector& b) { return DVector(a) - DVector(b); }
 

@@ -7,6 +7,7 @@
 #include "map/cover.h"
 #include "map/face_planes.h"
 #include "map/texels.h"
+#include "math/dvector.h"
 #include "math/elementary.h"
 #include "simd/floating_point_mode.h"
 
@@ -27,13 +28,6 @@ constexpr double kFieldMargin = 1e-3;
 
 constexpr int kFewestTexels = 64;  // a side
 constexpr int kMostTexels = 2048;  // a side
-
-double length(const DVector& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
-
-double angle_between(const DVector& a, const DVector& b) {
-  const DVector c(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-  return elementary::atan2(length(c), a.x * b.x + a.y * b.y + a.z * b.z);
-}
 
 DVector sight_of(const Scene& scene, const Vector& position) {
   const FloatingPointMode mode;

@@ -1,27 +1,13 @@
 #include <facemap/error.h>
 #include <facemap/space_vector.h>
 
-#include <algorithm>
 #include <cmath>
 
+#include "math/dvector.h"
 #include "simd/floating_point_mode.h"
 
 namespace facemap {
 namespace {
-
-double dot(const DVector& a, const DVector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
-DVector cross(const DVector& a, const DVector& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-// Divides by the largest component first, so that no square overflows or vanishes. Zero stays zero.
-DVector normalized(const DVector& a) {
-  const double largest = std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
-  if (!(largest > 0)) return DVector(0);
-  const DVector scaled = a / largest;
-  return scaled / std::sqrt(dot(scaled, scaled));
-}
 
 bool is_zero(const DVector& a) { return a.x == 0 && a.y == 0 && a.z == 0; }
 

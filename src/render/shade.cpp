@@ -3,21 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/dvector.h"
 #include "math/exact_sign.h"
 
 namespace facemap {
 namespace {
-
-double dot(const DVector& a, const DVector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
-DVector cross(const DVector& a, const DVector& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-DVector normalized(const DVector& a) {
-  const double squared = dot(a, a);
-  return squared > 0 ? a * (1 / std::sqrt(squared)) : DVector(0);
-}
 
 // Weights of the corners at a point of the plane, not below 0 and of sum 1.
 DVector barycentric(const DVector (&v)[3], const DVector& n, const DVector& p) {
