@@ -286,7 +286,7 @@ Tracked ray_parameter(const TruePoint& point) {
 }
 
 double sharp_ray_parameter(const TruePoint& point, const Tracked& t) {
-  if (t.error <= 0x1p-30 * t.value) return t.value;
+  if (t.error < 0x1p-30 * t.value) return t.value;  // false if both are infinite: a slope rounded to 0
   const Vec3<mpz_class> n = normal<mpz_class>(point.face);
   mpq_class exact(determinant<mpz_class>(point.face, n, point.K), dot(n, vec<mpz_class>(point.d)));
   exact.canonicalize();
