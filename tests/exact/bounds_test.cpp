@@ -53,7 +53,8 @@ TEST(Bounds, TheCapOfABlockHoldsEveryDirectionThatProjectsIntoIt) {
     const double radius = block_cap_radius(projection, size);
     for (int i = 0; i < 20; ++i) {
       const bool is_corner = i < 4;
-      const MapPoint p(x + size * (is_corner ? i % 2 : random.unit()), y + size * (is_corner ? i / 2 : random.unit()));
+      const double u = is_corner ? i % 2 : random.unit(), v = is_corner ? i / 2 : random.unit();
+      const MapPoint p(x + size * u, y + size * v);
       if (!projection.has_direction(p)) continue;
       const double angle = angle_between(c, projection.local_from_map(p));
       ASSERT_LE(angle, radius + 1e-15) << size << ' ' << projection.field_angle();
@@ -122,7 +123,8 @@ TEST(Bounds, NoPointOfAFaceIsNearerThanItsDistanceBound) {
   Random random(0x5eed0063);
   for (int i = 0; i < 20000; ++i) {
     DVector v[3];
-    for (DVector& corner : v) corner = 2.0 * random.in_cube() + DVector(0, 0, random.between(0.0, 3.0));
+    const double height_above = random.between(0.0, 3.0);
+    for (DVector& corner : v) corner = 2.0 * random.in_cube() + DVector(0, 0, height_above);
     if (i % 2) {  // equilateral about the axis: its middle is exactly as near as the bound says
       const double spread = random.between(0.1, 1.4), height = random.between(0.2, 2.0),
                    turn = random.between(0.0, 6.0);
@@ -184,9 +186,10 @@ std::vector<Facing> random_faces(int count, const SpaceVector& frame, Random& ra
     const DVector at = random.direction();
     Triangle face{rounded(at + size * random.in_cube()), rounded(at + size * random.in_cube()),
                   rounded(at + size * random.in_cube())};
-    if (random.chance(0.3))
-      face[2] = rounded(DVector(face[0]) + 0.4 * (DVector(face[1]) - DVector(face[0])) +
-                        std::pow(2.0, random.between(-20.0, -8.0)) * random.in_cube());
+    if (random.chance(0.3)) {
+      const double width = std::pow(2.0, random.between(-20.0, -8.0));
+      face[2] = rounded(DVector(face[0]) + 0.4 * (DVector(face[1]) - DVector(face[0])) + width * random.in_cube());
+    }
     const int s = side(face, frame.position());
     if (s == 0) continue;
     Facing f{face, s, Cone(face, s, frame), {}};
@@ -248,7 +251,8 @@ TEST(Bounds, ConesOfFacesSeenNearlyAlongAnEdgeKeepTheirCaps) {
   for (int i = 0; i < 20000; ++i) {
     const DVector along = random.direction();
     const Vector a = rounded(along * random.between(1.0, 2.0)), b = rounded(along * random.between(3.0, 4.0));
-    const Vector c = rounded(along * 2.5 + random.direction() * std::pow(2.0, random.between(-24.0, -2.0)));
+    const double aside = std::pow(2.0, random.between(-24.0, -2.0));
+    const Vector c = rounded(along * 2.5 + aside * random.direction());
     const Triangle face{a, b, c};
     const int s = side(face, Vector(0));
     if (s == 0) continue;

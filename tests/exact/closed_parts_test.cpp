@@ -82,7 +82,8 @@ std::vector<Vector> directions_to(const Scene& scene, const Vector& from, int co
 
 Vector outside(const Scene& scene, Random& random) {
   while (true) {
-    const Vector p(scene.centre() + scene.bounding_radius() * random.between(0.6, 3.0) * random.direction());
+    const DVector towards = random.direction();
+    const Vector p(scene.centre() + random.between(0.6, 3.0) * scene.bounding_radius() * towards);
     if (is_outside_box(scene, p)) return p;
   }
 }
@@ -160,9 +161,11 @@ TEST(ClosedParts, ExitsAnswerForRandomSolids) {
   for (int round = 0; round < 250; ++round) {
     Mesh mesh;
     for (int i = random.between(1, 4); i > 0; --i) {
-      Mesh solid = random.chance(0.5) ? test_scenes::uv_sphere(random.between(3, 9), random.between(2, 6),
-                                                               random.in_cube(), random.between(0.2, 1.5))
-                                      : box(Vector(-2.0 + random.in_cube()), Vector(0.5 + random.in_cube()));
+      const int slices = random.between(3, 9), stacks = random.between(2, 6);
+      const DVector a = random.in_cube(), b = random.in_cube();
+      const double radius = random.between(0.2, 1.5);
+      Mesh solid = random.chance(0.5) ? test_scenes::uv_sphere(slices, stacks, a, radius)
+                                      : box(Vector(-2.0 + a), Vector(0.5 + b));
       if (random.chance(0.3)) {
         for (Corners& t : solid.triangles) std::swap(t[1], t[2]);
       }

@@ -70,7 +70,8 @@ TEST(Conventions, MapsAgreeWithAnIndependentProjection) {
     const Camera camera(scene, SpaceVector::looking_at(position, look_at, up), options);
     const Reference reference(position, look_at, up, options);
     for (int i = 0; i < 300; ++i) {
-      const MapPoint at(random.between(0.01, 0.99) * options.width, random.between(0.01, 0.99) * options.height);
+      const double u = random.between(0.01, 0.99), v = random.between(0.01, 0.99);
+      const MapPoint at(u * options.width, v * options.height);
       const Vector d = camera.direction_through(at);
       if (d == Vector(0)) continue;
       // Directions are float32: 2^-24 of a right angle or so; the map is at most this many texels a radian, and

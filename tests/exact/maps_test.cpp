@@ -168,14 +168,14 @@ class Session {
     }
   }
 
-  // The distance rounded to float32, from a double that may be off by a little: half an ulp and 2^-40 relative.
+  // The distance rounded to float32, from a double that may be off by 2^-30 relative and a little.
   static bool is_depth_of(const Camera::Hit& hit, const oracle::View& view, const Vector& direction) {
     if (!hit) return hit.depth == std::numeric_limits<float>::infinity();
     const double truth = view.distance(hit.face, direction);
     if (std::isnan(truth) || truth < std::numeric_limits<float>::min()) return true;
     if (truth > std::numeric_limits<float>::max()) return std::isinf(hit.depth);
     const double ulp = double(std::nextafterf(hit.depth, HUGE_VALF)) - double(hit.depth);
-    return std::fabs(hit.depth - truth) <= 0.5 * ulp + 0x1p-40 * truth;
+    return std::fabs(hit.depth - truth) <= 0.5 * ulp + 0x1p-29 * truth;
   }
 
   void ask_light(const TestScene& test, const Scene& scene, const Oracle& oracle, const oracle::View& camera) {

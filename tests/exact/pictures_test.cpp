@@ -86,7 +86,10 @@ class Picture {
   Tally check(int random_pixels, int edge_pixels) {
     Random random(0x5eed0050);
     Tally tally;
-    for (int i = 0; i < random_pixels; ++i) check(random.below(image_.width), random.below(image_.height), tally);
+    for (int i = 0; i < random_pixels; ++i) {
+      const int x = random.below(image_.width), y = random.below(image_.height);
+      check(x, y, tally);
+    }
     std::vector<int> edges;
     for (int i = 0; i < image_.width * image_.height; ++i) {
       if (is_edge(i % image_.width, i / image_.width)) edges.push_back(i);

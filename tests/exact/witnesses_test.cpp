@@ -98,7 +98,8 @@ TEST(Witness, ConvexSolidsHaveNoFalseShadow) {
   for (const Scene* solid : {&sphere, &cube}) {
     for (const double distance : {3.0, 30.0, 300.0, 3000.0, 100000.0}) {
       const PointLight light(*solid, rounded(centre + kRadius * distance * random.direction()));
-      const Camera camera = panorama(*solid, rounded(centre + kRadius * random.between(2.0, 9.0) * random.direction()));
+      const double away = kRadius * random.between(2.0, 9.0);
+      const Camera camera = panorama(*solid, rounded(centre + away * random.direction()));
       for (int i = 0; i < 3000; ++i) {
         const int face = random.below(static_cast<int>(solid->face_count()));
         const int corner = random.below(3);  // a vertex, the middle of an edge, or a point inside

@@ -109,13 +109,16 @@ void give(LightQuery& query, const TestScene& scene, const oracle::Oracle& oracl
       at = DVector(light) + stretch * (spot_on(f, edge_or_vertex(random), random) - DVector(light));
       break;
     }
-    case 3:  // the shadow of a vertex on another face's plane
-      at = shadow_on_plane(f, light,
-                           spot_on(corners_of(mesh, any_face(mesh, random), random), edge_or_vertex(random), random));
+    case 3: {  // the shadow of a vertex on another face's plane
+      const Corners g = corners_of(mesh, any_face(mesh, random), random);
+      at = shadow_on_plane(f, light, spot_on(g, edge_or_vertex(random), random));
       break;
-    case 4:  // on a face's plane, outside it
-      at = f.a + double(random.between(-2, 3)) * (f.b - f.a) + double(random.between(-2, 3)) * (f.c - f.a);
+    }
+    case 4: {  // on a face's plane, outside it
+      const double p = random.between(-2, 3), q = random.between(-2, 3);
+      at = f.a + p * (f.b - f.a) + q * (f.c - f.a);
       break;
+    }
     case 5:  // sampled from a face: it is named
       at = spot_on(f, random.chance(0.5) ? edge_or_vertex(random) : Spot::Inside, random);
       if (oracle.is_kept(face)) query.on.face = face;
@@ -147,12 +150,14 @@ CameraQuery make_camera_query(const TestScene& scene, const Vector& camera, Rand
       return {nudged(rounded(f.a + f.b - 2.0 * K), random), true};  // towards the edge's midpoint
     case 3:
       return {nudged(rounded(spot_on(f, Spot::Edge, random) - K), random), true};
-    case 4:
-      return {
-          nudged(rounded(double(random.between(1, 4)) * (f.a - K) + double(random.between(1, 4)) * (f.b - K)), random),
-          true};
-    case 5:  // along an axis or a diagonal
-      return {nudged(Vector(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)), random), true};
+    case 4: {
+      const double p = random.between(1, 4), q = random.between(1, 4);
+      return {nudged(rounded(p * (f.a - K) + q * (f.b - K)), random), true};
+    }
+    case 5: {  // along an axis or a diagonal
+      const int x = random.between(-1, 1), y = random.between(-1, 1), z = random.between(-1, 1);
+      return {nudged(Vector(x, y, z), random), true};
+    }
     case 6:
       return {rounded(spot_on(f, Spot::Inside, random) - K), false};
     default:

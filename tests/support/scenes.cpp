@@ -31,8 +31,8 @@ Mesh soup(int face_count, Random& random) {
   for (int i = 0; i < face_count; ++i) {
     const DVector at = random.in_cube();
     const double size = std::pow(2.0, random.between(-6.0, 0.5));
-    add_triangle(mesh, rounded(at + size * random.in_cube()), rounded(at + size * random.in_cube()),
-                 rounded(at + size * random.in_cube()));
+    const DVector a = random.in_cube(), b = random.in_cube(), c = random.in_cube();
+    add_triangle(mesh, rounded(at + size * a), rounded(at + size * b), rounded(at + size * c));
   }
   return mesh;
 }
@@ -64,7 +64,8 @@ Mesh slivers(int face_count, Random& random) {
     if (random.chance(0.4)) a = random.in_cube();
     if (random.chance(0.4)) b = random.in_cube();
     const double width = std::pow(2.0, random.between(-20.0, -6.0));
-    const DVector c = a + random.between(-0.2, 1.2) * (b - a) + width * random.in_cube();
+    const double along = random.between(-0.2, 1.2);
+    const DVector c = a + along * (b - a) + width * random.in_cube();
     add_triangle(mesh, rounded(a), rounded(b), rounded(c));
   }
   return mesh;
@@ -74,7 +75,8 @@ Mesh lattice(int face_count, Random& random) {
   const int reach = random.between(2, 8);
   Mesh mesh;
   for (int i = 0; i < face_count; ++i) {
-    add_triangle(mesh, lattice_point(random, reach), lattice_point(random, reach), lattice_point(random, reach));
+    const Vector a = lattice_point(random, reach), b = lattice_point(random, reach), c = lattice_point(random, reach);
+    add_triangle(mesh, a, b, c);
   }
   return mesh;
 }
@@ -117,7 +119,8 @@ Mesh ball(int face_count, Random& random) {
 
 // A polyhedron about the centre with corners pushed to random distances.
 Mesh shell(Random& random) {
-  Mesh mesh = uv_sphere(random.between(3, 7), random.between(2, 4), DVector(0), 1);
+  const int slices = random.between(3, 7), stacks = random.between(2, 4);
+  Mesh mesh = uv_sphere(slices, stacks, DVector(0), 1);
   const bool is_rough = random.chance(0.7);
   for (Vector& v : mesh.positions) {
     if (is_rough) v *= static_cast<float>(std::pow(2.0, random.between(-3.0, 1.0)));
@@ -292,7 +295,7 @@ Vector make_origin(const TestScene& scene, Random& random) {
   const Mesh& mesh = scene.mesh;
   const int face = random.below(static_cast<int>(mesh.face_count()));
   const Vector a = mesh.vertex(face, 0), b = mesh.vertex(face, 1), c = mesh.vertex(face, 2);
-  const DVector centre(scene.centre);
+  const DVector centre(scene.centre), towards = random.direction();
   switch (random.below(12)) {
     case 0:
       return a;
@@ -309,13 +312,13 @@ Vector make_origin(const TestScene& scene, Random& random) {
     case 6:
       return rounded(centre + 0.3 * scene.radius * random.in_cube());
     case 7:
-      return rounded(centre + scene.radius * std::pow(10.0, random.between(1.0, 5.0)) * random.direction());
+      return rounded(centre + std::pow(10.0, random.between(1.0, 5.0)) * scene.radius * towards);
     case 8:
     case 9:
       if (scene.lattice > 0) return scene.centre + static_cast<float>(scene.lattice) * lattice_point(random, 8);
       [[fallthrough]];
     default:
-      return rounded(centre + scene.radius * random.between(1.1, 4.0) * random.direction());
+      return rounded(centre + random.between(1.1, 4.0) * scene.radius * towards);
   }
 }
 
