@@ -137,9 +137,7 @@ void give(LightQuery& query, const TestScene& scene, const oracle::Oracle& oracl
   if (!is_finite(query.given)) query = LightQuery();  // a shadow that falls at infinity
 }
 
-}  // namespace
-
-CameraQuery make_camera_query(const TestScene& scene, const Vector& camera, Random& random) {
+CameraQuery any_camera_query(const TestScene& scene, const Vector& camera, Random& random) {
   const Corners f = corners_of(scene.mesh, any_face(scene.mesh, random), random);
   const DVector K(camera);
   switch (random.below(8)) {
@@ -163,6 +161,13 @@ CameraQuery make_camera_query(const TestScene& scene, const Vector& camera, Rand
     default:
       return {rounded(random.direction()), false};
   }
+}
+
+}  // namespace
+
+CameraQuery make_camera_query(const TestScene& scene, const Vector& camera, Random& random) {
+  const CameraQuery query = any_camera_query(scene, camera, random);
+  return is_finite(query.direction) ? query : CameraQuery{Vector(1, 2, 3), false};  // farther than floats reach
 }
 
 LightQuery make_light_query(const TestScene& scene, const oracle::Oracle& oracle, const oracle::View& view,

@@ -145,6 +145,21 @@ Mesh fan(int face_count, Random& random) {
   return mesh;
 }
 
+// From the least floats to the greatest in one scene.
+Mesh wild(int face_count, Random& random) {
+  Mesh mesh;
+  const double least = random.chance(0.5) ? -149 : -60, greatest = random.chance(0.5) ? 127 : 60;
+  for (int i = 0; i < face_count; ++i) {
+    const double distance = std::pow(2.0, random.between(least, greatest));
+    const double size = distance * std::pow(2.0, random.between(-12.0, 0.0));
+    const DVector at = distance * random.direction();
+    DVector corners[3];
+    for (DVector& corner : corners) corner = glm::clamp(at + size * random.in_cube(), -0x1p127, 0x1p127);
+    add_triangle(mesh, rounded(corners[0]), rounded(corners[1]), rounded(corners[2]));
+  }
+  return mesh;
+}
+
 Mesh make_mesh(Kind kind, int face_count, Random& random) {
   switch (kind) {
     case Kind::Soup:
@@ -165,13 +180,15 @@ Mesh make_mesh(Kind kind, int face_count, Random& random) {
       return shell(random);
     case Kind::Fan:
       return fan(face_count, random);
+    case Kind::Wild:
+      return wild(face_count, random);
   }
   return {};
 }
 
 const char* name_of(Kind kind) {
   constexpr const char* kNames[kKindCount] = {"soup",  "patch", "slivers", "lattice", "coplanar",
-                                              "boxes", "ball",  "shell",   "fan"};
+                                              "boxes", "ball",  "shell",   "fan",     "wild"};
   return kNames[static_cast<int>(kind)];
 }
 
@@ -267,7 +284,7 @@ TestScene make_scene(Kind kind, int face_count, Random& random) {
   scene.mesh = make_mesh(kind, face_count, random);
   scene.lattice = is_on_lattice(kind) ? 1 : 0;
   scene.radius = 0;
-  for (const Vector& v : scene.mesh.positions) scene.radius = std::max(scene.radius, double(glm::length(v)));
+  for (const Vector& v : scene.mesh.positions) scene.radius = std::max(scene.radius, glm::length(DVector(v)));
   return scene;
 }
 
@@ -276,6 +293,7 @@ TestScene make_any_scene(Random& random, int largest_face_count) {
   // Ties are what the last stage is for: scenes on a lattice have most of them.
   const auto kind = static_cast<Kind>(random.below(kKindCount));
   TestScene scene = make_scene(kind, face_count, random);
+  if (kind == Kind::Wild) return scene;
   const int placement = random.below(8);
   if (placement <= 1) {
     const float factor = placement == 0 ? 0x1p-40f : 0x1p40f;
@@ -291,7 +309,9 @@ TestScene make_any_scene(Random& random, int largest_face_count) {
   return scene;
 }
 
-Vector make_origin(const TestScene& scene, Random& random) {
+namespace {
+
+Vector any_origin(const TestScene& scene, Random& random) {
   const Mesh& mesh = scene.mesh;
   const int face = random.below(static_cast<int>(mesh.face_count()));
   const Vector a = mesh.vertex(face, 0), b = mesh.vertex(face, 1), c = mesh.vertex(face, 2);
@@ -319,6 +339,15 @@ Vector make_origin(const TestScene& scene, Random& random) {
       [[fallthrough]];
     default:
       return rounded(centre + random.between(1.1, 4.0) * scene.radius * towards);
+  }
+}
+
+}  // namespace
+
+Vector make_origin(const TestScene& scene, Random& random) {
+  while (true) {
+    const Vector origin = any_origin(scene, random);
+    if (std::isfinite(origin.x) && std::isfinite(origin.y) && std::isfinite(origin.z)) return origin;
   }
 }
 

@@ -30,8 +30,9 @@ enum class Kind {
   Ball,      ///< a convex closed mesh
   Shell,     ///< few large faces around the centre: around the axis and across the antipode of what looks from there
   Fan,       ///< all faces share one vertex, in a plane or a cone
+  Wild,      ///< from the least floats to the greatest in one scene
 };
-inline constexpr int kKindCount = 9;
+inline constexpr int kKindCount = 10;
 
 /// About `face_count` faces.
 TestScene make_scene(Kind kind, int face_count, Random& random);
