@@ -125,6 +125,28 @@ void print_raster(const Subject& subject, int size) {
   std::printf("| %s | %d | %d |\n", subject.name.c_str(), d.pixels, d.at_edges);
 }
 
+// A Camera that kept one face a texel, that of the texel's centre, would answer so many rays wrongly.
+void print_one_face(const Subject& subject, int size) {
+  Camera::Options options;
+  options.width = options.height = size;
+  options.field_angle = subject.view.field_angle;
+  const View& view = subject.view;
+  const Camera camera(subject.scene, SpaceVector::looking_at(view.position, view.look_at, view.up), options);
+  std::int64_t rays = 0, wrong = 0;
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) {
+      const FaceId centre = camera.nearest(camera.direction_through({x + 0.5, y + 0.5})).face;
+      for (const auto& [dx, dy] : {std::pair{0.25, 0.25}, {0.75, 0.25}, {0.25, 0.75}, {0.75, 0.75}}) {
+        const FaceId face = camera.nearest(camera.direction_through({x + dx, y + dy})).face;
+        rays += face != kNoFace || centre != kNoFace;
+        wrong += face != centre;
+      }
+    }
+  }
+  std::printf("| %s | %.1f %% |\n", subject.name.c_str(),
+              100.0 * static_cast<double>(wrong) / static_cast<double>(rays));
+}
+
 double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
@@ -179,6 +201,8 @@ int main(int argc, char** argv) {
   for (std::size_t i = 0; i < subjects.size(); ++i) print_times(subjects[i], exact[i]);
   std::printf("\n| Scene | Builder as published: other face | other lights |\n|---|---|---|\n");
   for (std::size_t i = 0; i < subjects.size(); ++i) print_builders(subjects[i], exact[i], size);
+  std::printf("\n| Scene | One face a texel: wrong beside its centre |\n|---|---|\n");
+  for (const Subject& s : subjects) print_one_face(s, size);
   std::printf("\n| Scene | Raster method: other face | of these at an edge |\n|---|---|---|\n");
   for (const Subject& s : subjects) print_raster(s, size);
   std::printf("\n| Scene | One light's map, ms | First camera | Second camera |\n|---|---|---|---|\n");

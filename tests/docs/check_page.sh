@@ -10,7 +10,7 @@ complain() { echo "$page: $*" >&2; status=1; }
 
 names=$(mktemp)
 trap 'rm -f "$names"' EXIT
-tr '\n' ' ' < "$page" | grep -oE '`[^`]+`( `[A-Za-z_]+`)?' > "$names" || true
+awk '/^```/ { inside = !inside; next } !inside' "$page" | tr '\n' ' ' | grep -oE '`[^`]+`( `[A-Za-z_]+`)?' > "$names" || true
 [ -s "$names" ] || complain "names nothing"
 
 tests=0
