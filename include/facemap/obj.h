@@ -16,6 +16,13 @@ namespace facemap {
 class ObjReader;
 
 /// A Wavefront OBJ file. Wang 2022, sec. 4.3: the OBJ class, which loads a model file and turns it into faces.
+///
+/// Numbers are the nearest floats to the decimals. Faces may name corners in every form (v, v/t, v//n, v/t/n), by
+/// negative indices, and ahead of what they name. Polygons of any size are cut into triangles by ear clipping with
+/// exact signs. Corners without a normal in a smoothing group get the area-weighted one of their group. A colour
+/// behind a position is clamped to 0..1; vertices without one are white if any has one.
+/// Refused, with the line: numbers that are none, not finite or too large for a float; indices that are 0 or out
+/// of range; statements cut short; text with NUL bytes (UTF-16); files without a face.
 class OBJ {
  public:
   /// A statement that was read over: its keyword, how often, and the line (from 1) where it first stood.

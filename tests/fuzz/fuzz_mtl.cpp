@@ -1,0 +1,27 @@
+// Any bytes are an MTL file: what cannot be read is a warning.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/mtl.h"
+#include "scene/obj_materials.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace facemap;
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  ObjWarnings warnings("fuzz.mtl");
+  std::vector<Material> materials;
+  parse_mtl(text, warnings, materials);
+  for (const Material& material : materials) {
+    if (!std::isfinite(material.diffuse.x) || !std::isfinite(material.opacity)) std::abort();
+  }
+  for (const std::string& name : split_library_names(text.substr(0, text.find('\n')))) {
+    if (name.empty()) std::abort();
+  }
+  return 0;
+}
