@@ -73,7 +73,7 @@ GeneratedScene make_bust(int detail) {
   scene.place(wrap(bust_figure, net_rows(detail), net_columns(kColumns * detail)));
   scene.start_part("socle");
   scene.place(make_socle(detail), moved({0, 0, kAxisZ}));
-  scene.set_camera({-3.6f, 0.0f, 10.6f}, {0.0f, -1.82f, -0.3f}, 34);
+  scene.set_camera({-3.5f, -0.1f, 9.95f}, {-0.09f, -1.84f, -0.33f}, 34);
   scene.add_light({-7, 5, 4}, {1, 0.97f, 0.92f}, 0.58f);
   scene.add_light({6, 1, 7}, {1, 0.97f, 0.92f}, 0.12f);
   scene.add_light({8, 3, -2}, {0.92f, 0.96f, 1}, 0.26f);

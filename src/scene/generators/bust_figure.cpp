@@ -35,7 +35,7 @@ double eye(double d, const DVector& p) {
   const double half = (q.y > middle ? 0.084 : 0.052) * (1 - across * across);
   const double opening = half - std::abs(q.y - middle);
   const double lids = common(ball(p, centre, 0.194), opening, 0.03);
-  return std::min(joined(d, lids, 0.04), ball(p, centre, 0.169));
+  return std::min(joined(d, lids, 0.07), ball(p, centre, 0.169));
 }
 
 double nose(double d, const DVector& p) {

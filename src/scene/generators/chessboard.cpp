@@ -11,9 +11,10 @@ namespace {
 constexpr int kFiles = 8;
 constexpr double kEdge = kFiles / 2.0;
 constexpr double kBevel = 0.05;
-constexpr double kTop = 0.03;    // the face of a square above the grooves between squares
-constexpr double kFelt = 0.004;  // what a piece stands above its square
-constexpr int kPits = 8;         // pits along a side of a dark square
+constexpr double kTop = 0.03;      // the face of a square above the grooves between squares
+constexpr double kFelt = 0.004;    // what a piece stands above its square
+constexpr int kPits = 8;           // pits along a side of a dark square
+constexpr double kPitDepth = 1.8;  // in widths of a pit
 
 DVector on_board(double file, double rank) { return {file - kEdge, 0, kEdge - rank}; }
 
@@ -34,7 +35,7 @@ void add_light_square(Solid& board, int file, int rank) {
   board.add_quad(inner[0], inner[1], inner[2], inner[3], 0);
 }
 
-// A dark square: a sunk field of square pits, which reads darker than a plain one in any light.
+// A dark square is a field of pits, in which most light falls on what the eye does not see.
 void add_dark_square(Solid& board, int file, int rank) {
   const auto corners = square_corners(file, rank);
   const double side = 1 - 2 * kBevel, cell = side / kPits;
@@ -47,7 +48,7 @@ void add_dark_square(Solid& board, int file, int rank) {
   for (int r = 0; r < kPits; ++r) {
     for (int f = 0; f < kPits; ++f) {
       const DVector middle = on_board(file + kBevel + (f + 0.5) * cell, rank + kBevel + (r + 0.5) * cell);
-      const std::uint32_t pit = board.add_point(middle + DVector(0, kTop - cell * 0.9, 0));
+      const std::uint32_t pit = board.add_point(middle + DVector(0, kTop - kPitDepth * cell, 0));
       cap(board, {grid[r][f], grid[r][f + 1], grid[r + 1][f + 1], grid[r + 1][f]}, pit, 0);
     }
   }
@@ -167,7 +168,7 @@ GeneratedScene make_chessboard(int detail) {
   scene.start_part("board");
   scene.place(make_board());
   place_pieces(scene, make_pieces(detail));
-  scene.set_camera({-6.2f, 7.8f, 10.2f}, {0.12f, -0.7f, 0.45f}, 46);
+  scene.set_camera({-6.9f, 8.3f, 11.5f}, {0.06f, -1.05f, 0.71f}, 46);
   scene.add_light({-8, 8, 4}, {1, 0.97f, 0.92f}, 0.60f);
   scene.add_light({7, 6, 7}, {1, 0.97f, 0.92f}, 0.17f);
   scene.add_light({10, 5, -2}, {0.92f, 0.96f, 1}, 0.10f);

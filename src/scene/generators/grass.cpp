@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -8,10 +9,10 @@
 namespace facemap::generators {
 namespace {
 
-constexpr double kHalfSide = 4.2;  // of the piece of turf
-constexpr double kDepth = 1.1;     // of its earth
-constexpr double kMargin = 0.08;   // from the turf's edge to the outermost root
-constexpr double kRootDepth = 0.03;
+constexpr double kHalfSide = 4.2;    // of the piece of turf
+constexpr double kDepth = 1.1;       // of its earth
+constexpr double kMargin = 0.08;     // from the turf's edge to the outermost root
+constexpr double kRootDepth = 0.03;  // at detail 1: less than the first segment of a blade
 
 // A kind of blade: `count` of them, each with 4 * segments - 2 faces.
 struct BladeKind {
@@ -40,7 +41,7 @@ double side_relief(double along, double down) {
   using elementary::sin;
   const double lumps =
       sin(2.3 * along + 3 * down) + 0.6 * sin(5.9 * along - 7 * down + 1) + 0.4 * sin(11 * along + 9 * down);
-  return 0.06 * lumps - 0.5 * down * down;
+  return std::min(1.0, 6 * down) * 0.06 * lumps - 0.5 * down * down;
 }
 
 // The turf: a grid on top, layers of earth around it and a flat bottom, one closed surface.
@@ -132,7 +133,7 @@ Solid make_blades(int detail) {
       const double u = placed_so_far * kStepX, v = placed_so_far * kStepZ, margin = kHalfSide - kMargin;
       const double x = margin * (2 * (u - std::floor(u)) - 1), z = margin * (2 * (v - std::floor(v)) - 1);
       Blade blade;
-      blade.root = {x, ground_height(x, z) - kRootDepth, z};
+      blade.root = {x, ground_height(x, z) - kRootDepth / detail, z};
       blade.length = random.between(kind.shortest, kind.longest) * growth(x, z);
       blade.half_width = random.between(0.035, 0.06) * (0.7 + 0.25 * blade.length) / std::sqrt(double(detail));
       // Most bend with the wind, towards +x.
@@ -154,7 +155,7 @@ GeneratedScene make_grass(int detail) {
   scene.place(make_turf(detail));
   scene.start_part("blades");
   scene.place(make_blades(detail));
-  scene.set_camera({-6.0f, 6.8f, 12.2f}, {0.2f, 0, 0.1f}, 46);
+  scene.set_camera({-6.3f, 6.9f, 13.4f}, {0.35f, -0.41f, 0.41f}, 46);
   scene.add_light({-8, 9, 5}, {1, 0.97f, 0.92f}, 0.64f);
   scene.add_light({7, 6, 8}, {1, 0.97f, 0.92f}, 0.21f);
   scene.add_light({10, 6, -2}, {0.92f, 0.96f, 1}, 0.10f);

@@ -1,7 +1,7 @@
 #include "scene/generators/outline.h"
 
-#include <cmath>
 #include <glm/geometric.hpp>
+#include <algorithm>
 #include <numeric>
 
 #include "math/elementary.h"
@@ -17,17 +17,19 @@ bool is_crease(const glm::dvec2& before, const glm::dvec2& here, const glm::dvec
   return dot(normalize(here - before), normalize(after - here)) < kCreaseAngleCosine;
 }
 
-// Whether the corner at position `i` of `left` can be cut off: convex, with no other corner inside.
-bool is_ear(const Outline& polygon, const std::vector<std::uint32_t>& left, std::size_t i) {
+// How good it is to cut off the corner at position `i` of `left`: the triangle's area over its longest side's square,
+// or -1 if the corner is not convex or holds another one.
+double ear_quality(const Outline& polygon, const std::vector<std::uint32_t>& left, std::size_t i) {
   const std::size_t n = left.size();
   const glm::dvec2 &a = polygon[left[(i + n - 1) % n]], &b = polygon[left[i]], &c = polygon[left[(i + 1) % n]];
-  if (turn(a, b, c) <= 0) return false;
+  const double area = turn(a, b, c);
+  if (area <= 0) return -1;
   for (std::uint32_t k : left) {
     const glm::dvec2& p = polygon[k];
     if (p == a || p == b || p == c) continue;
-    if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return false;
+    if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return -1;
   }
-  return true;
+  return area / std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)});
 }
 
 glm::dvec2 catmull_rom(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const glm::dvec2& d, double t) {
@@ -56,19 +58,23 @@ std::vector<int> crease_groups(const Outline& outline, bool closed) {
 std::vector<Corners> triangulate(const Outline& polygon) {
   std::vector<std::uint32_t> left(polygon.size());
   std::iota(left.begin(), left.end(), 0u);
+  std::vector<double> quality(left.size());
+  const auto judge_all = [&] {
+    for (std::size_t i = 0; i < left.size(); ++i) quality[i] = ear_quality(polygon, left, i);
+  };
+  judge_all();
   std::vector<Corners> triangles;
-  std::size_t i = 0, tried = 0;
-  while (left.size() > 3 && tried < left.size()) {
-    const std::size_t n = left.size();
-    i %= n;
-    if (is_ear(polygon, left, i)) {
-      triangles.push_back({left[(i + n - 1) % n], left[i], left[(i + 1) % n]});
-      left.erase(left.begin() + static_cast<std::ptrdiff_t>(i));
-      tried = 0;
-    } else {
-      ++tried;
+  while (left.size() > 3) {
+    auto best = std::max_element(quality.begin(), quality.end());
+    if (*best < 0) {  // the last cut may have freed an ear elsewhere
+      judge_all();
+      best = std::max_element(quality.begin(), quality.end());
     }
-    ++i;
+    const std::size_t n = left.size(), i = static_cast<std::size_t>(best - quality.begin());
+    triangles.push_back({left[(i + n - 1) % n], left[i], left[(i + 1) % n]});
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(i));
+    quality.erase(best);
+    for (std::size_t k : {(i + n - 2) % (n - 1), i % (n - 1)}) quality[k] = ear_quality(polygon, left, k);
   }
   triangles.push_back({left[0], left[1], left[2]});
   return triangles;

@@ -16,7 +16,7 @@ inline constexpr double kCreaseAngleCosine = 0.75;  // 41 degrees
 /// number of creases is odd uses 3 for its last stretch.
 std::vector<int> crease_groups(const Outline& outline, bool closed);
 
-/// Cuts a simple counter-clockwise polygon into size - 2 triangles by its ears.
+/// Cuts a simple counter-clockwise polygon into size - 2 triangles by its ears, the fullest first.
 std::vector<Corners> triangulate(const Outline& polygon);
 
 /// A counter-clockwise polygon with each edge moved inwards by `distance`.

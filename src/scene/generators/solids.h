@@ -65,7 +65,7 @@ void cap(Solid& solid, const Ring& ring, std::uint32_t pole, int group);
 /// The same for a pole on the loop's right.
 void cap_right(Solid& solid, const Ring& ring, std::uint32_t pole, int group);
 
-/// A box with its edges cut at 45 degrees by `bevel` (0: plain, 12 faces; else 44), flat-shaded.
+/// A box with its edges cut at 45 degrees by `bevel` (0: plain, 12 faces; else 60), flat-shaded.
 Solid box(const DVector& lower, const DVector& upper, double bevel);
 
 /// A simple closed outline in the plane z = 0, counter-clockwise, stretched from z = -depth / 2 to depth / 2. The

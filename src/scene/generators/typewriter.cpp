@@ -16,7 +16,7 @@ GeneratedScene make_typewriter(int detail) {
   add_type_basket(scene, detail);
   add_ribbon(scene, detail);
   add_carriage(scene, detail);
-  scene.set_camera({-6.6f, 8.0f, 12.0f}, {-0.1f, 1.75f, 0.5f}, 43);
+  scene.set_camera({-6.8f, 7.9f, 12.8f}, {0.02f, 1.36f, 0.78f}, 43);
   scene.add_light({-8, 9, 5}, {1, 0.97f, 0.92f}, 0.60f);
   scene.add_light({7, 6, 8}, {1, 0.97f, 0.92f}, 0.17f);
   scene.add_light({10, 6, -2}, {0.92f, 0.96f, 1}, 0.12f);

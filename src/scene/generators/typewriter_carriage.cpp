@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "math/elementary.h"
@@ -22,15 +23,16 @@ Solid make_platen(int segments, int detail) {
 // A turning knob with flutes around, standing on y = 0.
 Solid make_knob(int segments, int detail) {
   constexpr int kFlutes = 24;
-  constexpr double kFluteDepth = 0.018, kRim = 0.40;
+  constexpr double kFluteDepth = 0.018, kRim = 0.40, kSmooth = 0.34;
   Profile profile(0, 0, detail);
   profile.line(0.16, 0).line(0.16, 0.06).line(0.36, 0.08).arc(kRim, 0.12, kQuarter, 3);
   profile.line(kRim, 0.34).arc(0.33, 0.41, kQuarter, 4).curve(0.20, 0.43, 0.12, 0.38, 4).line(0, 0.37);
   Solid knob = lathe(profile, segments);
   for (DVector& p : knob.points) {
     const double radius = length(DVector(p.x, 0, p.z));
-    if (radius < 0.35 || p.y < 0.07) continue;
-    const double flute = kFluteDepth * elementary::cos(kFlutes * elementary::atan2(p.z, p.x));
+    if (radius < kSmooth) continue;
+    const double depth = kFluteDepth * std::min(1.0, (radius - kSmooth) / (kRim - kSmooth));
+    const double flute = depth * elementary::cos(kFlutes * elementary::atan2(p.z, p.x));
     p.x *= 1 + flute / radius;
     p.z *= 1 + flute / radius;
   }
