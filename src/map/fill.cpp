@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <utility>
 
 #include "map/edge_curve.h"
+#include "map/face_planes.h"
 #include "math/clip.h"
+#include "math/dvector.h"
 #include "math/elementary.h"
 #include "math/exact_sign.h"
 
@@ -33,8 +34,8 @@ enum class Antipode { Outside, Inside, OnEdge };
 Antipode classify_antipode(const LocalTriangle& face, int s) {
   bool on_edge = false;
   for (int i = 0; i < 3; ++i) {
-    const DVector n = glm::cross(face[i], face[(i + 1) % 3] - face[i]);
-    const double sine = -s * n.z / std::sqrt(glm::dot(n, n));
+    const DVector n = cross(face[i], face[(i + 1) % 3] - face[i]);
+    const double sine = -s * n.z / length(n);
     if (sine < -kAntipodeSine) return Antipode::Outside;
     on_edge = on_edge || sine <= kAntipodeSine;
   }
@@ -181,11 +182,10 @@ class Filler {
 
 void fill_faces(const Scene& scene, const SpaceVector& frame, const Projection& projection,
                 std::vector<TexelEntry>& entries) {
-  const Mesh& mesh = scene.mesh();
   const DVector origin(frame.position());
   Filler filler(projection);
   for (const std::uint32_t face : scene.kept_faces()) {
-    const Triangle world{mesh.vertex(face, 0), mesh.vertex(face, 1), mesh.vertex(face, 2)};
+    const Triangle world = triangle_of(scene, face);
     const int s = -side(world, frame.position());  // local axes are left-handed: the sign turns
     if (s == 0) continue;
     LocalTriangle local;

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <limits>
 
+#include "map/face_planes.h"
 #include "math/clip.h"
+#include "math/dvector.h"
 #include "math/exact_sign.h"
 #include "render/scan_lines.h"
 #include "render/screen_transform.h"
@@ -34,11 +35,6 @@ struct ScreenFaces {
   std::vector<std::size_t> ends;  // of each polygon in `vertices`
   std::vector<FaceId> faces;
 };
-
-Triangle triangle_of(const Scene& scene, std::size_t face) {
-  const Mesh& mesh = scene.mesh();
-  return {mesh.vertex(face, 0), mesh.vertex(face, 1), mesh.vertex(face, 2)};
-}
 
 DVector local_point(const SpaceVector& frame, const Vector& world) {
   return frame.local_from_world(DVector(world) - DVector(frame.position()));
@@ -96,9 +92,9 @@ class Shader {
 
   // `local` is the seen point of `face` in camera space.
   Color radiance(FaceId face, const DVector& local) {
-    const Triangle corners = triangle_of(scene_, face);
+    const Triangle corners = triangle_of(scene_, static_cast<std::uint32_t>(face));
     const DVector a(corners[0]);
-    const DVector n = glm::cross(DVector(corners[1]) - a, DVector(corners[2]) - a);
+    const DVector n = cross(DVector(corners[1]) - a, DVector(corners[2]) - a);
     const DVector point = DVector(frame_.position()) + frame_.world_from_local(local);
     const int camera_side = side_of(face, corners, lights_.size(), frame_.position());
     Color sum;
@@ -106,8 +102,8 @@ class Shader {
       const Light& light = lights_[i];
       if (side_of(face, corners, i, light.position) != camera_side) continue;
       const DVector to_light = DVector(light.position) - point;
-      const double lengths = std::sqrt(glm::dot(n, n)) * std::sqrt(glm::dot(to_light, to_light));
-      const double cosine = lengths > 0 ? std::fabs(glm::dot(n, to_light)) / lengths : 0;
+      const double lengths = length(n) * length(to_light);
+      const double cosine = lengths > 0 ? std::fabs(dot(n, to_light)) / lengths : 0;
       sum = sum + light.color * (light.intensity * static_cast<float>(cosine));
     }
     return sum;

@@ -89,6 +89,12 @@ TEST(EdgeCurve, AnEdgeAcrossTheAntipodeEnds) {
   EXPECT_GT(curve.size(), 100u);
 }
 
+TEST(EdgeCurve, AnEdgeThroughTheOriginEnds) {
+  // Its middle has no map point; a face with such an edge is seen edge-on and is in no map.
+  const Projection map(ProjectionKind::Surface, 2 * kPi, 128, 128);
+  EXPECT_EQ(curve_of({-1, 2, 3}, {1, -2, -3}, map).size(), 1u);
+}
+
 TEST(EdgeCurve, CostsLittleFarOutsideTheRaster) {
   // Half a circle behind a camera of 0.01 degrees is 58 million pixels long.
   const Projection map(ProjectionKind::Surface, kPi / 18000, 1024, 1024);
