@@ -2,6 +2,7 @@
 
 #include "math/dvector.h"
 
+namespace facemap {
 
 std::optional<RayHit> intersect(const DVector& origin, const DVector& direction,
                                 const std::array<DVector, 3>& triangle) {
