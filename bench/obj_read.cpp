@@ -11,6 +11,8 @@
 // make a grid and read a file once: for `time -v obj_read --load FILE`, which shows the peak of memory.
 
 #include <benchmark/benchmark.h>
+#include <facemap/error.h>
+#include <facemap/obj.h>
 #include <tiny_obj_loader.h>
 
 #include <cmath>
@@ -23,9 +25,6 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <facemap/error.h>
-#include <facemap/obj.h>
 
 namespace {
 
@@ -58,8 +57,8 @@ void write_grid(const std::filesystem::path& path, GridKind kind, double megabyt
       if (kind == GridKind::Plain) {
         std::fprintf(out, "f %d %d %d\nf %d %d %d\n", a, b, c, a, c, d);
       } else if (kind == GridKind::Full) {
-        std::fprintf(out, "f %d/%d/%d %d/%d/%d %d/%d/%d\nf %d/%d/%d %d/%d/%d %d/%d/%d\n", a, a, a, b, b, b, c, c, c, a, a,
-                     a, c, c, c, d, d, d);
+        std::fprintf(out, "f %d/%d/%d %d/%d/%d %d/%d/%d\nf %d/%d/%d %d/%d/%d %d/%d/%d\n", a, a, a, b, b, b, c, c, c, a,
+                     a, a, c, c, c, d, d, d);
       } else {
         std::fprintf(out, "f %d %d %d %d\n", a, b, c, d);
       }

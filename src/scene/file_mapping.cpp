@@ -1,5 +1,6 @@
 #include "scene/file_mapping.h"
 
+#include <facemap/error.h>
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -7,8 +8,6 @@
 
 #include <cerrno>
 #include <system_error>
-
-#include <facemap/error.h>
 
 namespace facemap {
 

@@ -21,9 +21,9 @@ struct TextureOption {
   int numbers;
 };
 constexpr TextureOption kTextureOptions[] = {
-    {"-blendu", 1, 0}, {"-blendv", 1, 0}, {"-cc", 1, 0},     {"-clamp", 1, 0},      {"-imfchan", 1, 0},
-    {"-type", 1, 0},   {"-bm", 0, 1},     {"-boost", 0, 1},  {"-texres", 0, 1},     {"-mm", 0, 2},
-    {"-o", 0, 3},      {"-s", 0, 3},      {"-t", 0, 3},      {"-colorspace", 1, 0},
+    {"-blendu", 1, 0}, {"-blendv", 1, 0}, {"-cc", 1, 0},    {"-clamp", 1, 0},      {"-imfchan", 1, 0},
+    {"-type", 1, 0},   {"-bm", 0, 1},     {"-boost", 0, 1}, {"-texres", 0, 1},     {"-mm", 0, 2},
+    {"-o", 0, 3},      {"-s", 0, 3},      {"-t", 0, 3},     {"-colorspace", 1, 0},
 };
 
 /// Skips the options before a texture's file name. An option that is not known is taken for the name.
@@ -101,7 +101,8 @@ class MtlReader {
 
   static bool is_texture(std::string_view keyword) {
     constexpr std::string_view kOthers[] = {"bump", "disp", "decal", "refl", "norm"};
-    return keyword.starts_with("map_") || std::find(std::begin(kOthers), std::end(kOthers), keyword) != std::end(kOthers);
+    return keyword.starts_with("map_") ||
+           std::find(std::begin(kOthers), std::end(kOthers), keyword) != std::end(kOthers);
   }
 
   /// False, with a warning and `value` unchanged, if there is no number.

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <facemap/material.h>
+
 #include <string_view>
 #include <vector>
-
-#include <facemap/material.h>
 
 #include "scene/obj_warnings.h"
 

@@ -33,9 +33,9 @@ struct Decimal {
 
 inline constexpr int kMaxExactDigits = 19;  ///< any number of so many digits fits 64 bits
 inline constexpr int kMaxExactPower = 22;   ///< 10^22 = 2^22 5^22, and 5^22 < 2^53: exact in double
-inline constexpr double kPowersOfTen[kMaxExactPower + 1] = {
-    1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+inline constexpr double kPowersOfTen[kMaxExactPower + 1] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                                            1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                                            1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
 /// The float nearest to a decimal number (ties to even) if a double shows it; false if it does not.
 /// Digits up to 2^53 and the power of ten are exact doubles (Clinger 1990), so their quotient or product x is

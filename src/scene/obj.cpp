@@ -1,10 +1,9 @@
+#include <facemap/error.h>
 #include <facemap/obj.h>
 
 #include <algorithm>
 #include <optional>
 #include <utility>
-
-#include <facemap/error.h>
 
 #include "scene/file_mapping.h"
 #include "scene/obj_reader.h"

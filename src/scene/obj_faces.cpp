@@ -21,8 +21,8 @@ void append(std::vector<std::uint32_t>& values, const std::vector<Corners>& tria
 }
 
 /// Appends the fan of the last polygon's indices to an array that stays empty while there are none.
-void append_fan(std::vector<Corners>& values, const std::vector<Corners>& triangles,
-                std::span<const ObjCorner> corners, std::uint32_t ObjCorner::*index) {
+void append_fan(std::vector<Corners>& values, const std::vector<Corners>& triangles, std::span<const ObjCorner> corners,
+                std::uint32_t ObjCorner::*index) {
   if (values.empty()) {
     const auto is_absent = [index](const ObjCorner& corner) { return corner.*index == kNoIndex; };
     if (std::all_of(corners.begin(), corners.end(), is_absent)) return;

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <facemap/mesh.h>
+
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include <facemap/mesh.h>
 
 #include "scene/obj_warnings.h"
 #include "scene/polygon.h"
@@ -60,8 +60,8 @@ class ObjFaces {
   std::vector<SmoothingRun> smoothing_runs_;
   std::vector<Fan> waiting_;
   PolygonCutter cutter_;
-  std::vector<Vector> positions_;        ///< of the polygon being cut
-  std::vector<std::uint32_t> indices_;   ///< the same
+  std::vector<Vector> positions_;       ///< of the polygon being cut
+  std::vector<std::uint32_t> indices_;  ///< the same
 };
 
 }  // namespace facemap

@@ -1,10 +1,10 @@
 #include "scene/obj_materials.h"
 
-#include <algorithm>
-#include <system_error>
-
 #include <facemap/error.h>
 #include <facemap/mesh.h>
+
+#include <algorithm>
+#include <system_error>
 
 #include "scene/file_mapping.h"
 #include "scene/mtl.h"

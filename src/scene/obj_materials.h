@@ -1,5 +1,7 @@
 #pragma once
 
+#include <facemap/material.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -8,8 +10,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <facemap/material.h>
 
 #include "scene/obj_warnings.h"
 

@@ -1,14 +1,14 @@
 #pragma once
 
+#include <facemap/error.h>
+#include <facemap/mesh.h>
+#include <facemap/obj.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <facemap/error.h>
-#include <facemap/mesh.h>
-#include <facemap/obj.h>
 
 #include "scene/obj_faces.h"
 #include "scene/obj_lines.h"
@@ -20,8 +20,7 @@ namespace facemap {
 /// Reads the statements of an OBJ text, one line after the other, into a mesh.
 class ObjReader {
  public:
-  ObjReader(std::string_view text, std::string name, const std::filesystem::path& directory,
-            const OBJ::Limits& limits);
+  ObjReader(std::string_view text, std::string name, const std::filesystem::path& directory, const OBJ::Limits& limits);
 
   /// Reads all statements. Throws LoadError, as does finish().
   void read();

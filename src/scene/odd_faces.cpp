@@ -18,9 +18,7 @@ std::uint64_t hash(const Corners& item) {
   return h ^ h >> 32;
 }
 
-std::uint32_t bits(float value) {
-  return std::bit_cast<std::uint32_t>(value == 0 ? 0.0f : value);
-}
+std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value == 0 ? 0.0f : value); }
 
 bool repeats_vertex(const Corners& c) { return c[0] == c[1] || c[1] == c[2] || c[2] == c[0]; }
 
@@ -39,9 +37,8 @@ std::vector<std::uint32_t> first_equal(const std::vector<Corners>& items) {
   auto begin = order.begin();
   for (std::uint64_t bucket = 0; bucket <= mask; ++bucket) {
     const auto end = order.begin() + bucket_end[bucket];
-    std::sort(begin, end, [&](std::uint32_t a, std::uint32_t b) {
-      return items[a] != items[b] ? items[a] < items[b] : a < b;
-    });
+    std::sort(begin, end,
+              [&](std::uint32_t a, std::uint32_t b) { return items[a] != items[b] ? items[a] < items[b] : a < b; });
     for (auto i = begin; i != end; ++i) {
       first[*i] = i != begin && items[*i] == items[i[-1]] ? first[i[-1]] : *i;
     }

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include <facemap/mesh.h>
 #include <facemap/scene.h>
+
+#include <cstdint>
+#include <vector>
 
 namespace facemap {
 

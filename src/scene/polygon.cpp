@@ -1,7 +1,6 @@
 #include "scene/polygon.h"
 
 #include <algorithm>
-
 #include <cmath>
 
 namespace facemap {
@@ -68,8 +67,10 @@ void PolygonCutter::project(std::span<const Vector> corners) {
   points_.clear();
   for (const Vector& corner : corners) points_.push_back(projected(corner, dropped));
 
-  const auto [left, right] = std::minmax_element(points_.begin(), points_.end(), [](auto a, auto b) { return a.x < b.x; });
-  const auto [low, high] = std::minmax_element(points_.begin(), points_.end(), [](auto a, auto b) { return a.y < b.y; });
+  const auto [left, right] =
+      std::minmax_element(points_.begin(), points_.end(), [](auto a, auto b) { return a.x < b.x; });
+  const auto [low, high] =
+      std::minmax_element(points_.begin(), points_.end(), [](auto a, auto b) { return a.y < b.y; });
   if (static_cast<double>(high->y) - low->y > static_cast<double>(right->x) - left->x) {
     for (PlanePoint& point : points_) std::swap(point.x, point.y);
   }
@@ -193,8 +194,8 @@ bool PolygonCutter::is_ear(std::uint32_t corner) {
   if (turn_at(corner) <= 0) return false;
   const float a = points_[previous_[corner]].x, b = points_[corner].x, c = points_[next_[corner]].x;
   const float left = std::min({a, b, c}), right = std::max({a, b, c});
-  auto blocker = std::lower_bound(order_.begin(), order_.end(), left,
-                                  [&](std::uint32_t i, float x) { return points_[i].x < x; });
+  auto blocker =
+      std::lower_bound(order_.begin(), order_.end(), left, [&](std::uint32_t i, float x) { return points_[i].x < x; });
   for (; blocker != order_.end() && points_[*blocker].x <= right; ++blocker) {
     if (--work_left_ <= 0) return false;
     if (blocks(*blocker, corner)) return false;

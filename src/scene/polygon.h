@@ -1,11 +1,11 @@
 #pragma once
 
+#include <facemap/mesh.h>
+#include <facemap/vector.h>
+
 #include <cstdint>
 #include <span>
 #include <vector>
-
-#include <facemap/mesh.h>
-#include <facemap/vector.h>
 
 #include "scene/polygon_orientation.h"
 
@@ -49,14 +49,14 @@ class PolygonCutter {
   int turn_at(std::uint32_t corner) const;
   void clip(std::uint32_t corner);
 
-  std::vector<PlanePoint> points_;     ///< counter-clockwise, wider than high
-  std::vector<std::uint32_t> next_;    ///< the ring of corners that are left; kNoIndex where one is gone
+  std::vector<PlanePoint> points_;   ///< counter-clockwise, wider than high
+  std::vector<std::uint32_t> next_;  ///< the ring of corners that are left; kNoIndex where one is gone
   std::vector<std::uint32_t> previous_;
-  std::vector<std::uint32_t> order_;   ///< blockers of ears, or edges, by ascending x
+  std::vector<std::uint32_t> order_;  ///< blockers of ears, or edges, by ascending x
   std::vector<Corners> triangles_;
-  std::uint32_t left_ = 0;             ///< corners in the ring
-  std::uint32_t at_ = 0;               ///< where the search for an ear goes on
-  std::int64_t work_left_ = 0;         ///< in tests of one pair
+  std::uint32_t left_ = 0;      ///< corners in the ring
+  std::uint32_t at_ = 0;        ///< where the search for an ear goes on
+  std::int64_t work_left_ = 0;  ///< in tests of one pair
 };
 
 }  // namespace facemap

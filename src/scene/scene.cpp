@@ -1,13 +1,11 @@
+#include <facemap/error.h>
 #include <facemap/scene.h>
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <string>
 #include <utility>
-
-#include <glm/common.hpp>
-
-#include <facemap/error.h>
 
 #include "scene/odd_faces.h"
 #include "simd/floating_point_mode.h"

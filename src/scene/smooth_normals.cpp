@@ -10,10 +10,10 @@ namespace {
 
 /// What one vertex has in one smoothing group.
 struct VertexSum {
-  DVector area{0};                         ///< sum of twice the areas of its polygons, along their normals
+  DVector area{0};  ///< sum of twice the areas of its polygons, along their normals
   std::uint32_t group = 0;
-  std::uint32_t last_polygon = kNoIndex;   ///< whose area was added last
-  std::uint32_t normal = kNoIndex;         ///< made of `area`
+  std::uint32_t last_polygon = kNoIndex;  ///< whose area was added last
+  std::uint32_t normal = kNoIndex;        ///< made of `area`
 };
 
 class SmoothNormals {
@@ -90,8 +90,10 @@ void add_smooth_normals(Mesh& mesh, const std::vector<SmoothingRun>& runs) {
       if (runs[i].group != 0) visit(runs[i].first_triangle, end, runs[i].group);
     }
   };
-  for_each_run([&](std::size_t begin, std::size_t end, std::uint32_t group) { normals.add_polygons(begin, end, group); });
-  for_each_run([&](std::size_t begin, std::size_t end, std::uint32_t group) { normals.set_normals(begin, end, group); });
+  for_each_run(
+      [&](std::size_t begin, std::size_t end, std::uint32_t group) { normals.add_polygons(begin, end, group); });
+  for_each_run(
+      [&](std::size_t begin, std::size_t end, std::uint32_t group) { normals.set_normals(begin, end, group); });
 }
 
 }  // namespace facemap

@@ -1,10 +1,10 @@
 #pragma once
 
+#include <facemap/mesh.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
-
-#include <facemap/mesh.h>
 
 namespace facemap {
 

@@ -1,9 +1,9 @@
 // Any bytes are an MTL file: what cannot be read is a warning.
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>

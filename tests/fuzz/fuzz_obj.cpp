@@ -1,14 +1,14 @@
 // Any bytes are an OBJ file or are refused: nothing else may happen. What was read must make a scene.
 
+#include <facemap/error.h>
+#include <facemap/obj.h>
+#include <facemap/scene.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
 #include <utility>
-
-#include <facemap/error.h>
-#include <facemap/obj.h>
-#include <facemap/scene.h>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace facemap;

@@ -30,7 +30,8 @@ std::string texture_of(const std::string& statement, const std::string& keyword)
 
 TEST(Mtl, ReadsAllNumbers) {
   const Parsed parsed = parse(
-      "# comment\nnewmtl red paint\n\tKa 0.1 .2 3e-1\n  Kd 1 0 0\nKs 0.5\nKe 0 0 2\nNs 10\r\nNi 1.5\nd 0.25\nillum 3\n");
+      "# comment\nnewmtl red paint\n\tKa 0.1 .2 3e-1\n  Kd 1 0 0\nKs 0.5\nKe 0 0 2\nNs 10\r\nNi 1.5\nd 0.25\nillum "
+      "3\n");
   ASSERT_EQ(parsed.materials.size(), 1u);
   const Material& material = parsed.materials[0];
   EXPECT_EQ(material.name, "red paint");

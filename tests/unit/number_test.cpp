@@ -63,8 +63,9 @@ TEST(Number, TakesSignsPointsAndExponents) {
 }
 
 TEST(Number, RefusesWhatIsNoNumber) {
-  for (const char* word : {"", "+", "-", ".", "+.", "e5", ".e5", "1e", "1e+", "1e+x", "+-1", "--1", "1.2.3", "1,5", "0x10", "nan",
-                           "NaN", "-nan", "inf", "-inf", "infinity", "1.#IND", "1.#INF", "1f", "3.1+e2", "1/2", "1#"}) {
+  for (const char* word : {"",     "+",    "-",        ".",      "+.",     "e5",   ".e5",    "1e",  "1e+",
+                           "1e+x", "+-1",  "--1",      "1.2.3",  "1,5",    "0x10", "nan",    "NaN", "-nan",
+                           "inf",  "-inf", "infinity", "1.#IND", "1.#INF", "1f",   "3.1+e2", "1/2", "1#"}) {
     EXPECT_FALSE(scan(word).has_value()) << word;
   }
 }

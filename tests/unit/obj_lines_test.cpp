@@ -43,9 +43,7 @@ TEST(ObjLines, ContinuesNothingAtTheEnd) {
   EXPECT_EQ(cut("a \\\n\\"), (Lines{{1, "a  "}}));
 }
 
-TEST(ObjLines, DoesNotContinueComments) {
-  EXPECT_EQ(cut("  # C:\\\nv 1\n"), (Lines{{1, "  # C:"}, {2, "v 1"}}));
-}
+TEST(ObjLines, DoesNotContinueComments) { EXPECT_EQ(cut("  # C:\\\nv 1\n"), (Lines{{1, "  # C:"}, {2, "v 1"}})); }
 
 TEST(ObjLines, LeavesBackslashesInsideALine) { EXPECT_EQ(cut("a\\b\n"), (Lines{{1, "a\\b"}})); }
 
@@ -57,11 +55,13 @@ TEST(RestOfLine, IsWithoutBlanksAtItsEnds) {
 TEST(Printable, KeepsUtf8AndReplacesTheRest) {
   EXPECT_EQ(printable("na\xC3\xAFve \xE2\x82\xAC \xF0\x9F\x98\x80"), "na\xC3\xAFve \xE2\x82\xAC \xF0\x9F\x98\x80");
   EXPECT_EQ(printable("a\x1B[31m\x7F"), "a?[31m?");
-  EXPECT_EQ(printable("\xC2\x9B"), "??");                // a control code of two bytes
-  EXPECT_EQ(printable("\xE4" "bc"), "?bc");              // Latin-1
+  EXPECT_EQ(printable("\xC2\x9B"), "??");  // a control code of two bytes
+  EXPECT_EQ(printable("\xE4"
+                      "bc"),
+            "?bc");                                       // Latin-1
   EXPECT_EQ(printable("\xC0\x80\xED\xA0\x80"), "?????");  // overlong; a surrogate
-  EXPECT_EQ(printable("\xF4\x90\x80\x80"), "????");      // past U+10FFFF
-  EXPECT_EQ(printable("\xE2\x82"), "??");                // cut short
+  EXPECT_EQ(printable("\xF4\x90\x80\x80"), "????");       // past U+10FFFF
+  EXPECT_EQ(printable("\xE2\x82"), "??");                 // cut short
 }
 
 TEST(Printable, CutsLongText) {

@@ -1,9 +1,9 @@
 // Every OBJ file of the collection of test models is read or refused with a reason, and what was counted in it by
 // other means (facts.jsonl) agrees.
 
+#include <facemap/error.h>
 #include <facemap/obj.h>
 #include <facemap/scene.h>
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,8 +16,6 @@
 #include <optional>
 #include <set>
 #include <string>
-
-#include <facemap/error.h>
 
 #include "math/exact_sign.h"
 
@@ -34,8 +32,8 @@ const std::map<std::string, Cause> kRefused = {
     {"nasty/assimp/testline.obj", Cause::NoFaces},
     {"nasty/assimp/testpoints.obj", Cause::NoFaces},
     {"nasty/pywavefront/simple_one_vertex.obj", Cause::NoFaces},
-    {"nasty/pywavefront/simple_zero_indices.obj", Cause::BadIndex},        // normal 0
-    {"nasty/tinyobjloader/catmark_torus_creases0.obj", Cause::BadIndex},   // no normals
+    {"nasty/pywavefront/simple_zero_indices.obj", Cause::BadIndex},       // normal 0
+    {"nasty/tinyobjloader/catmark_torus_creases0.obj", Cause::BadIndex},  // no normals
     {"nasty/tinyobjloader/invalid-face-definition.obj", Cause::TruncatedStatement},
     {"nasty/tinyobjloader/invalid-relative-texture-index.obj", Cause::BadIndex},
     {"nasty/tinyobjloader/invalid-relative-vertex-index.obj", Cause::BadIndex},
@@ -138,7 +136,8 @@ std::int64_t count_zero_area_faces(const Mesh& mesh) {
   return std::count_if(is_zero.begin(), is_zero.end(), [](const auto& entry) { return entry.second; });
 }
 
-std::int64_t value_or(const std::map<std::string, std::int64_t>& table, const std::string& path, std::int64_t otherwise) {
+std::int64_t value_or(const std::map<std::string, std::int64_t>& table, const std::string& path,
+                      std::int64_t otherwise) {
   const auto found = table.find(path);
   return found == table.end() ? otherwise : found->second;
 }
@@ -159,7 +158,8 @@ void compare(const std::string& path, const Facts& facts, OBJ obj) {
   }
 
   const Scene scene(std::move(obj).mesh(), obj.materials());
-  const std::int64_t zero_area = facts.number("zero_area").value_or(-1), duplicates = facts.number("dup_faces").value_or(-1);
+  const std::int64_t zero_area = facts.number("zero_area").value_or(-1),
+                     duplicates = facts.number("dup_faces").value_or(-1);
   EXPECT_EQ(count_zero_area_faces(scene.mesh()), value_or(kZeroAreaFaces, path, zero_area));
   EXPECT_EQ(scene.odd_faces().duplicate, value_or(kDuplicates, path, duplicates));
   EXPECT_EQ(scene.odd_faces().repeated_vertex, value_or(kRepeatedVertex, path, 0));

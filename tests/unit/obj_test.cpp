@@ -1,5 +1,5 @@
+#include <facemap/error.h>
 #include <facemap/obj.h>
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -7,8 +7,6 @@
 #include <limits>
 #include <string>
 #include <vector>
-
-#include <facemap/error.h>
 
 namespace facemap {
 namespace {
@@ -23,7 +21,8 @@ const std::string kThreeVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 const std::string kFourVertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 const std::string kFace = "f 1 2 3\n";
 
-void expect_refused(const std::string& text, Cause cause, std::int64_t line, const OBJ::Limits& limits = OBJ::Limits()) {
+void expect_refused(const std::string& text, Cause cause, std::int64_t line,
+                    const OBJ::Limits& limits = OBJ::Limits()) {
   try {
     parse(text, limits);
     ADD_FAILURE() << "was read: " << text;
@@ -68,7 +67,8 @@ TEST(Obj, RefusesBadNumbers) {
 }
 
 TEST(Obj, RefusesStatementsCutShort) {
-  for (const char* text : {"v\n", "v 1\n", "v 1 2\n", "v 1 2", "v 1 2 # 3\n", "vn 1 2\n", "vt\n", "vn", "f\n", "f 1\n", "f 1 2\n"}) {
+  for (const char* text :
+       {"v\n", "v 1\n", "v 1 2\n", "v 1 2", "v 1 2 # 3\n", "vn 1 2\n", "vt\n", "vn", "f\n", "f 1\n", "f 1 2\n"}) {
     expect_refused(kThreeVertices + text, Cause::TruncatedStatement, 4);
   }
 }
@@ -82,13 +82,17 @@ TEST(Obj, TextureCoordinatesHaveOneToThreeNumbers) {
 
 TEST(Obj, ReadsAllIndexForms) {
   const std::string head = kThreeVertices + "vt 0 0\nvt 1 0\nvn 0 0 1\nvn 0 0 2\n";
-  const Mesh mesh = parse(head + "f 1 2 3\nf 1/1 2/2 3/1\nf 1//1 2//2 3//1\nf 1/1/1 2/2/2 3/1/1\nf 1 2/2 3//1\nf 1/ 2// 3/1/\n").mesh();
+  const Mesh mesh =
+      parse(head + "f 1 2 3\nf 1/1 2/2 3/1\nf 1//1 2//2 3//1\nf 1/1/1 2/2/2 3/1/1\nf 1 2/2 3//1\nf 1/ 2// 3/1/\n")
+          .mesh();
   constexpr std::uint32_t kNo = kNoIndex;
   EXPECT_EQ(mesh.triangles, std::vector<Corners>(6, {0, 1, 2}));
-  EXPECT_EQ(mesh.texture_corners,
-            (std::vector<Corners>{{kNo, kNo, kNo}, {0, 1, 0}, {kNo, kNo, kNo}, {0, 1, 0}, {kNo, 1, kNo}, {kNo, kNo, 0}}));
-  EXPECT_EQ(mesh.normal_corners,
-            (std::vector<Corners>{{kNo, kNo, kNo}, {kNo, kNo, kNo}, {0, 1, 0}, {0, 1, 0}, {kNo, kNo, 0}, {kNo, kNo, kNo}}));
+  EXPECT_EQ(
+      mesh.texture_corners,
+      (std::vector<Corners>{{kNo, kNo, kNo}, {0, 1, 0}, {kNo, kNo, kNo}, {0, 1, 0}, {kNo, 1, kNo}, {kNo, kNo, 0}}));
+  EXPECT_EQ(
+      mesh.normal_corners,
+      (std::vector<Corners>{{kNo, kNo, kNo}, {kNo, kNo, kNo}, {0, 1, 0}, {0, 1, 0}, {kNo, kNo, 0}, {kNo, kNo, kNo}}));
 }
 
 TEST(Obj, LeavesArraysEmptyThatSayNothing) {
@@ -100,7 +104,8 @@ TEST(Obj, LeavesArraysEmptyThatSayNothing) {
 }
 
 TEST(Obj, NegativeIndicesCountBackFromWhatWasRead) {
-  const Mesh mesh = parse(kThreeVertices + "vt 0 0\nvn 0 0 1\nf -3/-1/-1 -2/-1/-1 -1/-1/-1\nv 5 5 5\nf -4 -3 -1\n").mesh();
+  const Mesh mesh =
+      parse(kThreeVertices + "vt 0 0\nvn 0 0 1\nf -3/-1/-1 -2/-1/-1 -1/-1/-1\nv 5 5 5\nf -4 -3 -1\n").mesh();
   EXPECT_EQ(mesh.triangles, (std::vector<Corners>{{0, 1, 2}, {0, 1, 3}}));
   EXPECT_EQ(mesh.normal_corners[0], (Corners{0, 0, 0}));
 }
@@ -161,7 +166,8 @@ TEST(Obj, SelfIntersectingPolygonsAreFansWithAWarning) {
 // Lines.
 
 TEST(Obj, ReadsCrlfContinuationsCommentsTabsAndALastLineWithoutNewline) {
-  const OBJ obj = parse("\xEF\xBB\xBF# head\r\n\tv 0 0 0\r\n  v 1\t0  0 # a comment\r\n\r\nv 0 1 0\r\nf 1 \\\r\n2 \\\n3");
+  const OBJ obj =
+      parse("\xEF\xBB\xBF# head\r\n\tv 0 0 0\r\n  v 1\t0  0 # a comment\r\n\r\nv 0 1 0\r\nf 1 \\\r\n2 \\\n3");
   EXPECT_EQ(obj.mesh().positions.size(), 3u);
   EXPECT_EQ(obj.mesh().triangles, std::vector<Corners>(1, {0, 1, 2}));
 }
@@ -271,8 +277,9 @@ class ObjFolder : public testing::Test {
 TEST_F(ObjFolder, ReadsMaterialsOfSeveralFilesInEitherOrder) {
   write("a.mtl", "newmtl red\nKd 1 0 0\n");
   write("sub folder/my b.mtl", "newmtl dark green\nKd 0 .5 0\nnewmtl red\nKd .9 0 0\n");
-  const OBJ obj = OBJ::load(write("m.obj", kThreeVertices + "f 1 2 3\nusemtl dark green\nf 1 2 3\nusemtl red\nf 2 3 1\nusemtl\nf 3 1 2\n" +
-                                               "mtllib a.mtl sub folder/my b.mtl\n"));
+  const OBJ obj = OBJ::load(
+      write("m.obj", kThreeVertices + "f 1 2 3\nusemtl dark green\nf 1 2 3\nusemtl red\nf 2 3 1\nusemtl\nf 3 1 2\n" +
+                         "mtllib a.mtl sub folder/my b.mtl\n"));
   ASSERT_EQ(obj.materials().size(), 3u);
   EXPECT_EQ(obj.mesh().triangle_materials, (std::vector<std::uint32_t>{kNoIndex, 1, 0, kNoIndex}));
   EXPECT_TRUE(obj.report().warnings.empty());
@@ -295,7 +302,8 @@ TEST_F(ObjFolder, BrokenMtlFilesAreWarnings) {
 TEST_F(ObjFolder, OpensNoMtlFileOutsideItsFolder) {
   write("outside.mtl", "newmtl a\n");
   const std::string text = "usemtl a\n" + kThreeVertices + kFace;
-  for (const std::string& name : {std::string("../outside.mtl"), (folder_ / "outside.mtl").string(), std::string("C:\\x\\outside.mtl")}) {
+  for (const std::string& name :
+       {std::string("../outside.mtl"), (folder_ / "outside.mtl").string(), std::string("C:\\x\\outside.mtl")}) {
     const OBJ away = OBJ::load(write("sub folder/m.obj", "mtllib " + name + "\n" + text));
     EXPECT_TRUE(away.materials().empty()) << name;
     EXPECT_EQ(away.report().warnings.size(), 2u) << name;

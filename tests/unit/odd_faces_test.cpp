@@ -43,17 +43,17 @@ TEST(OddFaces, EachKindIsCounted) {
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {2, 0, 4}, {0, 5, 1}, {1, 1, 2}, {2, 1, 4}, {3, 0, 2}};
   std::vector<std::uint8_t> kept;
   const OddFaces odd = find_odd_faces(mesh, kept);
-  EXPECT_EQ(odd.zero_area, 2);        // two vertices at one place; three on a line
+  EXPECT_EQ(odd.zero_area, 2);  // two vertices at one place; three on a line
   EXPECT_EQ(odd.repeated_vertex, 1);
-  EXPECT_EQ(odd.duplicate, 2);        // by value, in any order
+  EXPECT_EQ(odd.duplicate, 2);  // by value, in any order
   EXPECT_EQ(kept, (std::vector<std::uint8_t>{1, 1, 0, 0, 0, 0, 0}));
 }
 
 TEST(OddFaces, ZeroAreaIsExact) {
   // Collinear as decimals, but not as floats; and a sliver whose area vanishes in double precision.
   Mesh mesh;
-  mesh.positions = {{0.1f, 0.2f, 0.3f}, {0.4f, 0.5f, 0.6f}, {0.7f, 0.8f, 0.9f}, {1, 2, 3}, {2, 4, 6}, {3, 6, 9},
-                    {1e8f, 1e8f, 0},    {1e-8f, 1e-8f, 0},  {0, 1e-30f, 0}};
+  mesh.positions = {{0.1f, 0.2f, 0.3f}, {0.4f, 0.5f, 0.6f}, {0.7f, 0.8f, 0.9f}, {1, 2, 3},     {2, 4, 6},
+                    {3, 6, 9},          {1e8f, 1e8f, 0},    {1e-8f, 1e-8f, 0},  {0, 1e-30f, 0}};
   mesh.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
   std::vector<std::uint8_t> kept;
   EXPECT_EQ(find_odd_faces(mesh, kept).zero_area, 1);
@@ -69,7 +69,8 @@ TEST(OddFaces, AgreesWithComparingAll) {
       mesh.positions.push_back(Vector(random.below(3), random.chance(0.2) ? -0.0f : 0.0f, random.below(3)));
     }
     for (int i = 0; i < 150; ++i) {
-      mesh.triangles.push_back({static_cast<std::uint32_t>(random.below(30)), static_cast<std::uint32_t>(random.below(30)),
+      mesh.triangles.push_back({static_cast<std::uint32_t>(random.below(30)),
+                                static_cast<std::uint32_t>(random.below(30)),
                                 static_cast<std::uint32_t>(random.below(30))});
     }
     OddFaces expected;

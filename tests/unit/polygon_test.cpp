@@ -78,7 +78,7 @@ void expect_cover(const Outline& outline, const Cut& made, int way, bool may_hav
 void expect_cut_everywhere(const Outline& outline, bool may_have_zero_area = false) {
   std::int64_t area = 0;
   for (std::size_t i = 2; i < outline.size(); ++i) area += cross(outline[0], outline[i - 1], outline[i]);
-  const Vector planes[][2] = {{{1, 0, 0}, {0, 1, 0}}, {{0, 1, 0}, {0, 0, 1}},  {{0, 0, 1}, {1, 0, 0}},
+  const Vector planes[][2] = {{{1, 0, 0}, {0, 1, 0}},  {{0, 1, 0}, {0, 0, 1}},  {{0, 0, 1}, {1, 0, 0}},
                               {{1, 2, 3}, {0, 1, -2}}, {{-1, 0, 0}, {0, 1, 0}}, {{0, 1, 0}, {1, 0, 0}}};
   for (const auto& plane : planes) {
     const Cut made = cut(outline, plane[0], plane[1], Vector(10, -20, 30));
@@ -89,7 +89,8 @@ void expect_cut_everywhere(const Outline& outline, bool may_have_zero_area = fal
 
 bool touch(GridPoint a, GridPoint b, GridPoint c, GridPoint d) {
   const auto is_between = [](GridPoint p, GridPoint q, GridPoint r) {  // r on the line pq
-    return std::min(p.x, q.x) <= r.x && r.x <= std::max(p.x, q.x) && std::min(p.y, q.y) <= r.y && r.y <= std::max(p.y, q.y);
+    return std::min(p.x, q.x) <= r.x && r.x <= std::max(p.x, q.x) && std::min(p.y, q.y) <= r.y &&
+           r.y <= std::max(p.y, q.y);
   };
   const int c_side = turn(a, b, c), d_side = turn(a, b, d), a_side = turn(c, d, a), b_side = turn(c, d, b);
   if (c_side * d_side < 0 && a_side * b_side < 0) return true;
@@ -213,7 +214,8 @@ TEST(Polygon, RandomOutlinesAreCoveredOnce) {
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
-    const Outline outline = random_outline(random, 4 + static_cast<std::size_t>(random.below(40)), 5 + random.below(40));
+    const Outline outline =
+        random_outline(random, 4 + static_cast<std::size_t>(random.below(40)), 5 + random.below(40));
     if (outline.size() > 3) expect_cut_everywhere(outline);
     if (HasFailure()) return;
   }
@@ -230,7 +232,8 @@ TEST(Polygon, RandomOutlinesWithSpikesAndRepeatedCornersAreCoveredOnce) {
       bool is_clear = true;  // the spike touches nothing but its root
       for (std::size_t j = 0; j < outline.size(); ++j) {
         const GridPoint c = outline[j], d = outline[(j + 1) % outline.size()];
-        is_clear &= c == root || d == root ? turn(root, tip, c) != 0 || turn(root, tip, d) != 0 : !touch(root, tip, c, d);
+        is_clear &=
+            c == root || d == root ? turn(root, tip, c) != 0 || turn(root, tip, d) != 0 : !touch(root, tip, c, d);
       }
       const auto place = outline.begin() + at + 1;
       if (is_clear && random.chance(0.7)) {
@@ -290,7 +293,8 @@ TEST(Orientation, OfLongOutlinesIsExact) {
     Random random(seed);
     std::vector<PlanePoint> outline;
     for (int i = 0; i < 30; ++i) {
-      outline.push_back({static_cast<float>(random.between(-1e6, 1e6)), static_cast<float>(random.between(-1e-3, 1e-3))});
+      outline.push_back(
+          {static_cast<float>(random.between(-1e6, 1e6)), static_cast<float>(random.between(-1e-3, 1e-3))});
     }
     for (int i = 28; i > 0; --i) outline.push_back(outline[static_cast<std::size_t>(i)]);
     EXPECT_EQ(orientation(outline), 0);

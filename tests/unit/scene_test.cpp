@@ -1,5 +1,5 @@
+#include <facemap/error.h>
 #include <facemap/scene.h>
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,8 +7,6 @@
 #include <fstream>
 #include <limits>
 #include <string>
-
-#include <facemap/error.h>
 
 namespace facemap {
 namespace {
@@ -113,7 +111,8 @@ TEST(Scene, RefusesFilesItDoesNotKnowOrFind) {
   EXPECT_EQ(load_failure("model"), LoadError::Cause::UnknownFormat);
   EXPECT_EQ(load_failure("/nonexistent/model.obj"), LoadError::Cause::CannotOpen);
   std::filesystem::create_directories(std::filesystem::path(testing::TempDir()) / "facemap_folder.obj");
-  EXPECT_EQ(load_failure(std::filesystem::path(testing::TempDir()) / "facemap_folder.obj"), LoadError::Cause::CannotOpen);
+  EXPECT_EQ(load_failure(std::filesystem::path(testing::TempDir()) / "facemap_folder.obj"),
+            LoadError::Cause::CannotOpen);
   const TemporaryFile empty("empty.obj", "");
   EXPECT_EQ(load_failure(empty.path), LoadError::Cause::NoFaces);
 }
