@@ -18,7 +18,9 @@ struct VertexSum {
 
 class SmoothNormals {
  public:
-  explicit SmoothNormals(Mesh& mesh) : mesh_(mesh), first_(mesh.positions.size()) {}
+  explicit SmoothNormals(Mesh& mesh) : mesh_(mesh), first_(mesh.positions.size()) {
+    mesh_.normals.reserve(mesh_.normals.size() + mesh_.positions.size());
+  }
 
   /// Adds the areas of polygons, given as triangles [begin, end).
   void add_polygons(std::size_t begin, std::size_t end, std::uint32_t group) {
