@@ -1,21 +1,27 @@
 // What the paper claims, counted on its four scenes: docs/paper.md quotes this program's output.
 // Wang 2022, sec. 4.1 (few faces a ray, Fig. 6 to 8), 4.2 (the published builder), 5 (Table 2), 6 (memory, reuse).
 //
-// paper_claims [SIZE]: pixels a side, 512 if not said.
+//   paper_claims          what is the same on every machine; a test finds each line in docs/paper.md
+//   paper_claims times    milliseconds
 
 #include <facemap/facemap.h>
 #include <facemap/generators.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace {
 
 using namespace facemap;
 
 constexpr double kPi = 3.14159265358979323846;
+
+constexpr int kSize = 512, kSizeOfTimes = 1024;  // pixels a side
 
 struct Subject {
   std::string name;
@@ -102,39 +108,38 @@ void print_few_faces(const Subject& subject, const Picture& picture) {
               static_cast<double>(s.map_bytes) / (1 << 20));
 }
 
-void print_times(const Subject& subject, const Picture& picture) {
-  const Renderer::Statistics& s = picture.statistics;
+void print_times(const Subject& subject, const Renderer::Statistics& s) {
   std::printf("| %s | %.0f | %.0f | %.0f | %.0f |\n", subject.name.c_str(), s.camera_map_ms, s.light_maps_ms,
               s.shade_ms, s.camera_map_ms + s.light_maps_ms + s.shade_ms);
 }
 
-void print_builders(const Subject& subject, const Picture& exact, int size) {
-  const Picture published = draw(subject, size, ProjectionKind::Surface, Builder::Fill);
+void print_builders(const Subject& subject, const Picture& exact) {
+  const Picture published = draw(subject, kSize, ProjectionKind::Surface, Builder::Fill);
   std::printf("| %s | %d | %d |\n", subject.name.c_str(), compare_ids(exact.image, published.image).pixels,
               count_other_lights(exact.image, published.image));
 }
 
-void print_raster(const Subject& subject, int size) {
+void print_raster(const Subject& subject) {
   View view = subject.view;
   view.projection = ProjectionKind::Plane;
   RasterOptions options;
-  options.width = options.height = size;
+  options.width = options.height = kSize;
   options.want_ids = true;
-  const Image exact = draw(subject, size, ProjectionKind::Plane, Builder::Cover).image;
+  const Image exact = draw(subject, kSize, ProjectionKind::Plane, Builder::Cover).image;
   const Difference d = compare_ids(exact, render_raster(subject.scene, view, subject.lights, options));
   std::printf("| %s | %d | %d |\n", subject.name.c_str(), d.pixels, d.at_edges);
 }
 
 // A Camera that kept one face a texel, that of the texel's centre, would answer so many rays wrongly.
-void print_one_face(const Subject& subject, int size) {
+void print_one_face(const Subject& subject) {
   Camera::Options options;
-  options.width = options.height = size;
+  options.width = options.height = kSize;
   options.field_angle = subject.view.field_angle;
   const View& view = subject.view;
   const Camera camera(subject.scene, SpaceVector::looking_at(view.position, view.look_at, view.up), options);
   std::int64_t rays = 0, wrong = 0;
-  for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) {
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) {
       const FaceId centre = camera.nearest(camera.direction_through({x + 0.5, y + 0.5})).face;
       for (const auto& [dx, dy] : {std::pair{0.25, 0.25}, {0.75, 0.25}, {0.25, 0.75}, {0.75, 0.75}}) {
         const FaceId face = camera.nearest(camera.direction_through({x + dx, y + dy})).face;
@@ -152,24 +157,24 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 // One light, asked about what two cameras see.
-void print_reuse(const Subject& subject, int size) {
+void print_reuse(const Subject& subject) {
   const auto start = std::chrono::steady_clock::now();
   const PointLight light(subject.scene, subject.lights[0].position);
   const double build_ms = milliseconds_since(start);
   std::printf("| %s | %.0f |", subject.name.c_str(), build_ms);
   for (const Vector& position : {subject.view.position, make_up_view(subject.scene).position}) {
     Camera::Options options;
-    options.width = options.height = size;
+    options.width = options.height = kSize;
     const Camera camera(subject.scene, SpaceVector::looking_at(position, subject.view.look_at), options);
     std::vector<SurfacePoint> points;
-    for (int i = 0; i < size * size; ++i) {
-      const Vector d = camera.direction_through({i % size + 0.5, i / size + 0.5});
+    for (int i = 0; i < kSize * kSize; ++i) {
+      const Vector d = camera.direction_through({i % kSize + 0.5, i / kSize + 0.5});
       if (const Camera::Hit hit = camera.nearest(d)) points.push_back(camera.surface_point(d, hit));
     }
     const auto asked = std::chrono::steady_clock::now();
     int lit = 0;
     for (const SurfacePoint& point : points) lit += light.get_lighten_up(point);
-    std::printf(" %.1f ms, %zu points, %d lit |", milliseconds_since(asked), points.size(), lit);
+    std::printf(" %.1f for %zu, %d lit |", milliseconds_since(asked), points.size(), lit);
   }
   std::printf("\n");
 }
@@ -185,27 +190,35 @@ void print_deformation() {
   }
 }
 
+void print_all_counts(const std::vector<Subject>& subjects) {
+  std::vector<Picture> exact;
+  for (const Subject& s : subjects) exact.push_back(draw(s, kSize, ProjectionKind::Surface, Builder::Cover));
+  std::printf("| Scene | Faces | Tested a camera ray | Tested a shadow ray | Maps, MB |\n|---|---|---|---|---|\n");
+  for (std::size_t i = 0; i < subjects.size(); ++i) print_few_faces(subjects[i], exact[i]);
+  std::printf("\n| Scene | Builder as published: other face | other lights |\n|---|---|---|\n");
+  for (std::size_t i = 0; i < subjects.size(); ++i) print_builders(subjects[i], exact[i]);
+  std::printf("\n| Scene | One face a texel: wrong beside its centre |\n|---|---|\n");
+  for (const Subject& s : subjects) print_one_face(s);
+  std::printf("\n| Scene | Raster method: other face | of these at an edge |\n|---|---|---|\n");
+  for (const Subject& s : subjects) print_raster(s);
+  print_deformation();
+}
+
+void print_all_times(const std::vector<Subject>& subjects) {
+  std::printf("| Scene | Camera's map, ms | Lights' maps, ms | Shading, ms | Sum, ms |\n|---|---|---|---|---|\n");
+  for (const Subject& s : subjects) {
+    print_times(s, draw(s, kSizeOfTimes, ProjectionKind::Surface, Builder::Cover).statistics);
+  }
+  std::printf(
+      "\n| Scene | One light's map, ms | First camera's points, ms | Second camera's, ms |\n|---|---|---|---|\n");
+  for (const Subject& s : subjects) print_reuse(s);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int size = argc > 1 ? std::atoi(argv[1]) : 512;
+  const bool wants_times = argc > 1 && std::string(argv[1]) == "times";
   std::vector<Subject> subjects;
   for (const std::string& name : generator_names()) subjects.push_back(make_subject(name));
-  std::vector<Picture> exact;
-  for (const Subject& s : subjects) exact.push_back(draw(s, size, ProjectionKind::Surface, Builder::Cover));
-
-  std::printf("%d x %d pixels, 8 lights\n", size, size);
-  std::printf("\n| Scene | Faces | Tested a camera ray | Tested a shadow ray | Maps, MB |\n|---|---|---|---|---|\n");
-  for (std::size_t i = 0; i < subjects.size(); ++i) print_few_faces(subjects[i], exact[i]);
-  std::printf("\n| Scene | Camera's map, ms | Lights' maps, ms | Shading, ms | Sum, ms |\n|---|---|---|---|---|\n");
-  for (std::size_t i = 0; i < subjects.size(); ++i) print_times(subjects[i], exact[i]);
-  std::printf("\n| Scene | Builder as published: other face | other lights |\n|---|---|---|\n");
-  for (std::size_t i = 0; i < subjects.size(); ++i) print_builders(subjects[i], exact[i], size);
-  std::printf("\n| Scene | One face a texel: wrong beside its centre |\n|---|---|\n");
-  for (const Subject& s : subjects) print_one_face(s, size);
-  std::printf("\n| Scene | Raster method: other face | of these at an edge |\n|---|---|---|\n");
-  for (const Subject& s : subjects) print_raster(s, size);
-  std::printf("\n| Scene | One light's map, ms | First camera | Second camera |\n|---|---|---|---|\n");
-  for (const Subject& s : subjects) print_reuse(s, size);
-  print_deformation();
+  wants_times ? print_all_times(subjects) : print_all_counts(subjects);
 }
