@@ -246,16 +246,40 @@ TEST(Raster, DividesEdgePixelsAlone) {
 }
 
 TEST(Raster, MeanOfAnEdgePixelIsTheShareThatTheFaceCovers) {
-  // The face ends at map x = 8.5 of 16, half way through column 8.
-  const float end = 0.0625f;  // (8.5 - 8) / 8 at distance 1
-  Mesh mesh = triangle(Vector(-100, -100, -1), Vector(end, -100, -1), Vector(end, 100, -1));
-  test_scenes::add_triangle(mesh, Vector(-100, -100, -1), Vector(end, 100, -1), Vector(-100, 100, -1));
+  // The face ends at 8.6 of 16 pixels, between the second and the third of four samples of pixel 8.
+  const float end = 0.075f;  // (8.6 - 8) / 8 at distance 1
+  Mesh left = triangle(Vector(-100, -100, -1), Vector(end, -100, -1), Vector(end, 100, -1));
+  test_scenes::add_triangle(left, Vector(-100, -100, -1), Vector(end, 100, -1), Vector(-100, 100, -1));
+  Mesh upper = triangle(Vector(-100, -end, -1), Vector(100, -end, -1), Vector(100, 100, -1));
+  test_scenes::add_triangle(upper, Vector(-100, -end, -1), Vector(100, 100, -1), Vector(-100, 100, -1));
   RasterOptions o = options(16, 16);
   o.edge_samples = 4;
   Light light;
   light.position = Vector(0, 0, 1e9f);  // head-on everywhere
-  const Image image = render_raster(Scene(mesh), plane_view(Vector(0), Vector(0, 0, -1), kPi / 2), {light}, o);
-  for (int row = 0; row < 16; ++row) EXPECT_NEAR(image.pixels[row * 16 + 8].r, 0.5, 0x1p-20) << row;
+  const View view = plane_view(Vector(0), Vector(0, 0, -1), kPi / 2);
+  const Image columns = render_raster(Scene(left), view, {light}, o);
+  const Image rows = render_raster(Scene(upper), view, {light}, o);
+  for (int i = 0; i < 16; ++i) {
+    EXPECT_NEAR(columns.pixels[i * 16 + 8].r, 0.5, 0x1p-20) << i;
+    EXPECT_NEAR(rows.pixels[8 * 16 + i].r, 0.5, 0x1p-20) << i;
+  }
+}
+
+TEST(Raster, AFaceSeenEdgeOnIsNotDrawn) {
+  // Faces in the plane x = 3y, level in the picture and through the middle of a row of pixels: rounding gives their
+  // images a height, which no row may show.
+  Random random(54);
+  View view = plane_view(Vector(0), Vector(3, 1, 0.7f), 1);
+  view.up = Vector(1, -3, 0);
+  for (int i = 0; i < 500; ++i) {
+    const auto corner = [&] {
+      const auto y = static_cast<float>(random.between(32, 128)) / 64,
+                 z = static_cast<float>(random.between(-1.0, 2.0));
+      return Vector(3 * y, y, z);  // exactly
+    };
+    const Mesh mesh = triangle(corner(), corner(), corner());
+    for (const FaceId face : render_raster(Scene(mesh), view, {}, options(33, 33)).ids) ASSERT_EQ(face, kNoFace) << i;
+  }
 }
 
 TEST(Raster, AgreesWithTheExactCameraButForEdges) {
