@@ -20,7 +20,8 @@ class Texels;
 /// How the texels of a map get their faces.
 enum class Builder {
   Cover,  ///< every texel that a face touches, never one too few: exact answers
-  Fill,   ///< as published (Alg. 2 to 4): texels whose centres lie between curve crossings; can miss a face at its edge
+  Fill,   ///< as published (Alg. 2 to 4): texels under edge curves and those whose centres lie between; can miss a face
+          ///< at its edge
 };
 
 /// A raster of directions about one fixed point whose texels hold the faces lying there. Wang 2022, sec. 4.

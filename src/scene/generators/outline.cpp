@@ -1,7 +1,7 @@
 #include "scene/generators/outline.h"
 
-#include <glm/geometric.hpp>
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <numeric>
 
 #include "math/elementary.h"
