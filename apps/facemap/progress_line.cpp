@@ -22,7 +22,7 @@ void ProgressLine::show(double fraction, const char* phase) {
   if (is_shown_ && now < next_) return;
   next_ = now + kPause;
   is_shown_ = true;
-  std::fprintf(stderr, "\r\033[K%3.0f %%  %s", fraction * 100, phase);
+  std::fprintf(stderr, "\r\033[K%-12s %3.0f %%", phase, fraction * 100);
   std::fflush(stderr);
 }
 

@@ -12,7 +12,7 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// `fraction` of 0..1 done, in the phase of this name.
+  /// `fraction` (0..1) of the phase of this name is done.
   void show(double fraction, const char* phase);
 
   /// Takes the line away, so that other text can follow.

@@ -8,10 +8,10 @@ namespace facemap {
 struct Color {
   float r = 0, g = 0, b = 0;
 
-  friend Color operator+(Color a, Color b) { return {a.r + b.r, a.g + b.g, a.b + b.b}; }
-  friend Color operator-(Color a, Color b) { return {a.r - b.r, a.g - b.g, a.b - b.b}; }
-  friend Color operator*(Color a, float s) { return {a.r * s, a.g * s, a.b * s}; }
-  friend Color operator*(Color a, Color b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
+  friend Color operator+(Color x, Color y) { return {x.r + y.r, x.g + y.g, x.b + y.b}; }
+  friend Color operator-(Color x, Color y) { return {x.r - y.r, x.g - y.g, x.b - y.b}; }
+  friend Color operator*(Color x, float s) { return {x.r * s, x.g * s, x.b * s}; }
+  friend Color operator*(Color x, Color y) { return {x.r * y.r, x.g * y.g, x.b * y.b}; }
   friend bool operator==(const Color&, const Color&) = default;
 
   /// 0xRRGGBB: sRGB transfer (IEC 61966-2-1), clamped to 0..1, rounded to nearest. NaN is 0.
