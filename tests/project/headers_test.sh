@@ -1,6 +1,7 @@
 #!/bin/sh
 # headers_test.sh COMPILER: each public header compiles when it is the first and only one.
 set -eu
-for header in include/facemap/*.h; do
-  echo "#include <facemap/${header##*/}>" | "$1" -std=c++20 -Wall -Wextra -Werror -fsyntax-only -Iinclude -x c++ -
-done
+export compiler="$1"
+find include/facemap -name '*.h' -printf '%f\n' |
+  xargs -n 1 -P "$(nproc)" sh -c 'echo "#include <facemap/$0>" |
+    "$compiler" -std=c++20 -Wall -Wextra -Werror -fsyntax-only -Iinclude -x c++ -'
