@@ -40,21 +40,23 @@ class FaceMap : public SpaceVector {
   int height() const noexcept { return projection_.height(); }
 
   /// Side of the face's plane on which the map's origin lies, exactly: -1 the face is turned towards it, 1
-  /// away, 0 seen edge-on (hit by nothing). 0 for odd faces, which are in no map.
+  /// away, 0 seen edge-on (hit by nothing). 0 for odd faces, which are in no map. No bounds check.
   int side(FaceId face) const;
 
   /// The candidates of a texel, nearest bound first: with Builder::Cover a superset of the faces that any
-  /// direction in the texel meets, ended behind a face that covers the texel unless the map keeps all.
+  /// direction in the texel meets, ended behind a face that covers the texel unless the map keeps all. No bounds check.
   std::span<const std::uint32_t> faces_at(int texel_x, int texel_y) const;
 
-  /// The texel that holds a world direction of any length (not zero); none outside the raster.
+  /// The texel that holds a world direction; none outside the raster, for the zero vector and for what is not finite.
+  /// Its length may be anything from 1e-150 to 1e150: squares must be doubles.
   struct Texel {
     int x, y;
   };
   std::optional<Texel> texel_of(const DVector& direction) const;
 
   /// How many faces the ray from the origin along `direction` meets, edges and vertices included; exact if the
-  /// map keeps all (Options::keep_all) and is built by Cover. 0 outside the raster or for a zero direction.
+  /// map keeps all (Options::keep_all) and is built by Cover. 0 outside the raster and for a direction that is zero or
+  /// not finite.
   int count_hits(const Vector& direction, Counters* counters = nullptr) const;
 
   /// Bytes of lists and planes.

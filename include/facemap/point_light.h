@@ -35,16 +35,19 @@ class PointLight : public FaceMap {
 
   /// Whether nothing stands strictly between the light and a float32 point. No facing test; a point on a
   /// face's plane is not blocked by that face; the light's own position is lit. Exact with Builder::Cover.
+  /// Throws Error for a point that is not finite, and for an On that is not as it says or names an odd face.
   bool get_lighten_up(const Vector& point, Counters* counters = nullptr) const {
     return get_lighten_up(point, On(), counters);
   }
   bool get_lighten_up(const Vector& point, const On& on, Counters* counters = nullptr) const;
 
   /// Whether the true point that a camera sees is lit: camera and light strictly on the same side of its face,
-  /// and nothing strictly between. A light on the face's plane leaves it dark.
+  /// and nothing strictly between. A light on the face's plane leaves it dark. Throws Error if the face is not one of
+  /// the scene, and as is_blocked does.
   bool get_lighten_up(const SurfacePoint& point, Counters* counters = nullptr) const;
 
-  /// The second half alone: whether some face stands strictly between the light and the true point.
+  /// The second half alone: whether some face stands strictly between the light and the true point. Throws
+  /// Error if the ray lies along the plane of its face or is not finite: there is no point.
   bool is_blocked(const SurfacePoint& point, Counters* counters = nullptr) const;
 
  private:

@@ -46,6 +46,7 @@ class Projection {
 
   /// The computed map point of any direction is the exact image of a direction at most this far away (radians):
   /// the rotation into the frame, then one atan2 or division, then the scaling to texels; each below 2^-48 rad.
+  /// Besides, the coordinates are rounded: by at most 2^-39 texels.
   static constexpr double kMapError = 0x1p-46;
 
  private:

@@ -25,6 +25,11 @@ constexpr double kLongestBoxEdge = 0.5;
 // how much the projection stretches an angular error.
 constexpr double kForwardShare = 1.0 / 64;
 
+// Texels by which the last step of the projection, adding the centre, may round a map point: half a unit in the last
+// place of a coordinate below 2^15, 2^-39 in x and y, and room for the sums made of it. It is an angle of its own:
+// where rasters are very oblong or a plane's field is near 180 degrees, a texel spans radians.
+constexpr double kCoordinateRounding = 0x1p-36;
+
 struct Box {
   int x0, y0, x1, y1;  // texels, both ends inside
 
@@ -69,7 +74,7 @@ class Builder {
   std::optional<Box> box_of(const Cone& cone) const {
     const double tau = projection_.texel_angle();
     const double angular_error = kDirectionError + 2 * Projection::kMapError;
-    double margin;
+    double margin;  // texels
     if (projection_.kind() == ProjectionKind::Surface) {
       double farthest_beta = 0;
       for (int i = 0; i < 3; ++i) {
@@ -88,6 +93,7 @@ class Builder {
       }
       margin = angular_error / (kForwardShare * kForwardShare) / tau;
     }
+    margin += kCoordinateRounding;
     double x0 = HUGE_VAL, y0 = HUGE_VAL, x1 = -HUGE_VAL, y1 = -HUGE_VAL;
     for (int i = 0; i < 3; ++i) {
       const MapPoint p = projection_.map_from_local(cone.corner(i));
@@ -155,8 +161,8 @@ class Builder {
 }  // namespace
 
 double block_cap_radius(const Projection& projection, double side_texels) {
-  return projection.texel_angle() * side_texels * kHalfDiagonal * (1 + 0x1p-40) + kDirectionError +
-         2 * Projection::kMapError;
+  const double reach = side_texels * kHalfDiagonal + kCoordinateRounding;
+  return projection.texel_angle() * reach * (1 + 0x1p-40) + kDirectionError + 2 * Projection::kMapError;
 }
 
 // The image x(s) of a great circle run through at unit speed has |x''|^2 = A^2 u^2 + 4 T^2 u (1 - u), where u is

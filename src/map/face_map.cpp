@@ -1,6 +1,7 @@
 #include <facemap/face_map.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "map/cover.h"
 #include "map/face_planes.h"
@@ -48,6 +49,8 @@ std::span<const std::uint32_t> FaceMap::faces_at(int texel_x, int texel_y) const
 }
 
 std::optional<FaceMap::Texel> FaceMap::texel_of(const DVector& direction) const {
+  const FloatingPointMode mode;
+  if (!std::isfinite(direction.x) || !std::isfinite(direction.y) || !std::isfinite(direction.z)) return std::nullopt;
   const DVector local = local_from_world(direction);
   if (!projection_.is_mapped(local)) return std::nullopt;
   const MapPoint p = projection_.map_from_local(local);

@@ -52,7 +52,7 @@ Triangle triangle_of(const Scene& scene, std::uint32_t face) {
 }
 
 float float_below(double x) {
-  const double lowered = x - std::fabs(x) * 0x1p-23;
+  const double lowered = x - std::fabs(x) * 0x1p-23 - 0x1p-149;  // denormal floats have no relative precision
   return std::clamp(static_cast<float>(lowered), -std::numeric_limits<float>::max(), std::numeric_limits<float>::max());
 }
 

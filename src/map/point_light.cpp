@@ -131,6 +131,9 @@ bool PointLight::is_blocked(const SurfacePoint& point, Counters* counters) const
 
 bool PointLight::get_lighten_up(const SurfacePoint& point, Counters* counters) const {
   const FloatingPointMode mode;
+  if (point.face != kNoFace && (point.face < 0 || static_cast<std::size_t>(point.face) >= scene().face_count())) {
+    throw Error("the face of a surface point is not one of the scene");
+  }
   const int own_side = point.face == kNoFace ? facemap::side(point.vertices, position()) : side(point.face);
   return own_side * point.side > 0 && !is_blocked(point, counters);
 }
@@ -140,8 +143,8 @@ bool PointLight::get_lighten_up(const Vector& point, const On& on, Counters* cou
   if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z)) {
     throw Error("a point to be lit is not finite");
   }
-  if (!(on.tolerance >= 0) || (on.tolerance > 0 && on.face != kNoFace)) {
-    throw Error("a point to be lit takes a face or a tolerance that is not negative, not both");
+  if (!(on.tolerance >= 0) || !std::isfinite(on.tolerance) || (on.tolerance > 0 && on.face != kNoFace)) {
+    throw Error("a point to be lit takes a face or a finite tolerance that is not negative, not both");
   }
   GivenPoint given{point};
   given.tolerance = on.tolerance;

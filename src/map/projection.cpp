@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "math/elementary.h"
+#include "simd/floating_point_mode.h"
 
 namespace facemap {
 namespace {
@@ -20,6 +21,7 @@ constexpr int kLargestSize = 32768;  // texels; keeps a texel's number within 32
 
 Projection::Projection(ProjectionKind kind, double field_angle, int width, int height)
     : kind_(kind), field_angle_(field_angle), width_(width), height_(height) {
+  const FloatingPointMode mode;
   if (width < 1 || height < 1 || width > kLargestSize || height > kLargestSize) {
     throw Error("map size must be 1 to 32768 texels a side");
   }

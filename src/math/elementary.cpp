@@ -106,6 +106,9 @@ double tan(double x) { return sin(x) / cos(x); }
 double atan2(double y, double x) {
   const double ay = std::fabs(y), ax = std::fabs(x);
   if (ay == 0.0 && ax == 0.0) return 0.0;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const bool has_angle = (ay <= ax && ay < kInfinity) || (ax < ay && ax < kInfinity);
+  if (!has_angle) return std::numeric_limits<double>::quiet_NaN();
   double angle = ay <= ax ? atan_of_ratio(ay, ax) : kPi / 2 - atan_of_ratio(ax, ay);
   if (x < 0.0) angle = kPi - angle;
   return y < 0.0 ? -angle : angle;

@@ -19,7 +19,7 @@ double cos(double x);
 /// sin(x) / cos(x).
 double tan(double x);
 
-/// The angle of (x, y) from +x, in (-pi, pi]; atan2(0, 0) = 0.
+/// The angle of (x, y) from +x, in (-pi, pi]; atan2(0, 0) = 0. NaN if either is NaN or both are infinite.
 double atan2(double y, double x);
 
 /// x in [-1, 1], clamped to it.

@@ -1,5 +1,6 @@
 #include "math/exact_sign.h"
 
+#include <facemap/error.h>
 #include <gmpxx.h>
 
 #include <bit>
@@ -204,10 +205,21 @@ bool blocks_staged(const Triangle& G, int s_G, const Vector& L, const Point& poi
   return blocks_stage<mpz_class>(G, s_G, L, point) == Verdict::Yes;
 }
 
+bool is_finite(const Vector& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+// Doubles have nothing to say about such a point either: every one of them comes here.
+void require_point(const TruePoint& p, const mpz_class& w) {
+  const bool is_point = is_finite(p.K) && is_finite(p.d) && is_finite(p.face[0]) && is_finite(p.face[1]) &&
+                        is_finite(p.face[2]) && w != 0;
+  if (!is_point) throw Error("the ray of a surface point does not meet the plane of its face");
+}
+void require_point(const GivenPoint&, const mpz_class&) {}  // w is the square of the normal
+
 // X / w in world units: X and w carry one factor 2^149 less in w, since P - L has degree 1.
 template <class Point>
 DVector exact_offset(const Point& point, const Vector& L) {
   const Target<mpz_class> t = target<mpz_class>(point, L);
+  require_point(point, t.w);
   const auto quotient = [&](const mpz_class& x) {
     mpq_class q(x, mpz_class(t.w << kFloatExponentShift));
     q.canonicalize();

@@ -66,6 +66,7 @@ double sharp_ray_parameter(const TruePoint& point, const Tracked& t);
 inline constexpr double kDirectionError = 0x1p-40;
 
 /// P - L for the true point, each with |error| <= kDirectionError |P - L|. `t` must be ray_parameter(point).
+/// Throws Error if the ray lies along the plane, or anything is not finite: there is no such point.
 DVector offset_from(const Vector& L, const TruePoint& point, const Tracked& t);
 
 /// P - L for a given point (projected if it names a face), to the same error; zero only if it is exactly zero.

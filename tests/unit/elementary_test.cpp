@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 namespace {
 
@@ -57,6 +58,12 @@ TEST(Elementary, ExponentialLogarithmAndPowerKeepTheirBounds) {
   }
   EXPECT_EQ(own::pow(0, 2), 0);
   EXPECT_EQ(own::exp(-1000), 0);
+}
+
+TEST(Elementary, ArcTangentOfWhatHasNoAngleIsNaN) {
+  for (const auto& [y, x] : {std::pair{NAN, 1.0}, {1.0, NAN}, {NAN, NAN}, {HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, HUGE_VAL}}) {
+    EXPECT_TRUE(std::isnan(own::atan2(y, x))) << y << ' ' << x;
+  }
 }
 
 }  // namespace

@@ -127,7 +127,7 @@ TEST(FacePlanes, DistanceBoundIsMetByTheMiddleOfAnEquilateralFace) {
 }
 
 TEST(FacePlanes, RoundingGoesTheSafeWay) {
-  for (const double x : {1.0, 1.0 + 0x1p-30, 3.14159, 1e-30, 0.0, 1e30, 1e40}) {
+  for (const double x : {1.0, 1.0 + 0x1p-30, 3.14159, 1e-30, 0.0, 0x1.8p-149, 0x1.ffp-140, 0x1p-126, 1e30, 1e40}) {
     EXPECT_LE(static_cast<double>(facemap::float_below(x)), x);
     EXPECT_GE(static_cast<double>(facemap::float_above(x)), x);
   }

@@ -1,5 +1,6 @@
 #include "simd/floating_point_mode.h"
 
+#include <facemap/camera.h>
 #include <facemap/renderer.h>
 #include <gtest/gtest.h>
 
@@ -39,6 +40,34 @@ TEST(FloatingPointMode, AnswersAreTheSameInACallersHostileModeAndTheModeIsKept) 
   int seen = 0;
   for (const facemap::FaceId id : image.ids) seen += id == 1;
   EXPECT_GT(seen, 0);
+}
+
+// By themselves, not under a renderer that has set the mode already.
+TEST(FloatingPointMode, ProjectionsAndTexelsAreTheSameInACallersHostileMode) {
+  facemap::Mesh mesh;
+  mesh.positions = {{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}};
+  mesh.triangles = {{0, 1, 2}};
+  const facemap::Scene scene(mesh);
+  const auto frame = facemap::SpaceVector::looking_along({0, 1, 0}, facemap::DVector(1, -2, 3));
+  const facemap::DVector denormal(0x1p-1030, -0x1p-1029, 0x1.8p-1029);
+  for (const auto kind : {facemap::ProjectionKind::Surface, facemap::ProjectionKind::Plane}) {
+    facemap::Camera::Options options;
+    options.projection = kind;
+    options.width = options.height = 300;
+    for (const double field_angle : {0.7, 1.1, 2.3}) {
+      options.field_angle = field_angle;
+      const facemap::Camera expected(scene, frame, options);
+      const auto expected_texel = expected.texel_of(denormal);
+      const unsigned saved = _mm_getcsr();
+      _mm_setcsr(kHostileMode);
+      const facemap::Camera camera(scene, frame, options);
+      const auto texel = camera.texel_of(denormal);
+      _mm_setcsr(saved);
+      EXPECT_EQ(camera.projection().texel_angle(), expected.projection().texel_angle());
+      ASSERT_EQ(texel.has_value(), expected_texel.has_value());
+      EXPECT_TRUE(!texel || (texel->x == expected_texel->x && texel->y == expected_texel->y));
+    }
+  }
 }
 
 #endif

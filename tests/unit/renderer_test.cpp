@@ -236,6 +236,21 @@ TEST(Renderer, LiftThatRoundingUndoesLeavesNoSpecks) {
   EXPECT_EQ(dark, 0) << "the light stands at the camera: every pixel is lit";
 }
 
+TEST(Renderer, NormalsThatAreNotFiniteCountAsNone) {
+  Mesh mesh = floor_and_lid();
+  const std::vector<Light> lights{{{0, 5, 0}}};
+  const Scene plain(mesh);
+  const Image expected = Renderer(plain, from_above(), lights, small()).render();
+  for (const Vector& normal : {Vector(NAN, 1, 0), Vector(0, 1, NAN), Vector(0, HUGE_VALF, 0)}) {
+    mesh.normals = {normal};
+    mesh.normal_corners.assign(mesh.face_count(), {0, 0, 0});
+    const Scene scene(mesh);
+    const Image image = Renderer(scene, from_above(), lights, small()).render();
+    EXPECT_TRUE(image.pixels == expected.pixels);
+    EXPECT_EQ(image.lights, expected.lights);
+  }
+}
+
 TEST(Renderer, ProgressRunsToTheEndAndCanStop) {
   const Scene scene(floor_and_lid());
   double last = -1;
