@@ -1,7 +1,8 @@
 #include "scene/obj_faces.h"
 
-#include <algorithm>
 #include <numeric>
+
+#include "scene/reserve_pages.h"
 
 namespace facemap {
 
@@ -14,19 +15,18 @@ void append(std::vector<std::uint32_t>& values, const std::vector<Corners>& tria
             std::uint32_t value, std::uint32_t absent) {
   if (values.empty()) {
     if (value == absent) return;
-    values.reserve(triangles.capacity());
+    reserve_pages(values, triangles.capacity());
     values.assign(triangles.size() - added, absent);
   }
-  values.insert(values.end(), added, value);
+  for (std::size_t i = 0; i < added; ++i) values.push_back(value);
 }
 
-/// Appends the fan of the last polygon's indices to an array that stays empty while there are none.
-void append_fan(std::vector<Corners>& values, const std::vector<Corners>& triangles, std::span<const ObjCorner> corners,
-                std::uint32_t ObjCorner::*index) {
+/// Appends the fan of the last polygon's indices to an array that is empty up to the first polygon that has some.
+template <std::uint32_t ObjCorner::*index>
+void append_fan(std::vector<Corners>& values, const std::vector<Corners>& triangles,
+                std::span<const ObjCorner> corners) {
   if (values.empty()) {
-    const auto is_absent = [index](const ObjCorner& corner) { return corner.*index == kNoIndex; };
-    if (std::all_of(corners.begin(), corners.end(), is_absent)) return;
-    values.reserve(triangles.capacity());
+    reserve_pages(values, triangles.capacity());
     values.assign(triangles.size() - (corners.size() - 2), kNoCorners);
   }
   for (std::size_t i = 2; i < corners.size(); ++i) {
@@ -47,14 +47,23 @@ void ObjFaces::add(std::span<const ObjCorner> corners, std::int64_t line, bool i
   for (std::size_t i = 2; i < corners.size(); ++i) {
     mesh_.triangles.push_back({corners[0].vertex, corners[i - 1].vertex, corners[i].vertex});
   }
-  append_fan(mesh_.texture_corners, mesh_.triangles, corners, &ObjCorner::texture);
-  append_fan(mesh_.normal_corners, mesh_.triangles, corners, &ObjCorner::normal);
+  std::uint32_t textures = kNoIndex, normals = kNoIndex;  // these as long as no corner has any
+  for (const ObjCorner& corner : corners) {
+    textures &= corner.texture;
+    normals &= corner.normal;
+  }
+  if (textures != kNoIndex || !mesh_.texture_corners.empty()) {
+    append_fan<&ObjCorner::texture>(mesh_.texture_corners, mesh_.triangles, corners);
+  }
+  if (normals != kNoIndex || !mesh_.normal_corners.empty()) {
+    append_fan<&ObjCorner::normal>(mesh_.normal_corners, mesh_.triangles, corners);
+  }
   append(mesh_.triangle_materials, mesh_.triangles, added, material_, kNoIndex);
   add_polygon_ids(added);
   if (corners.size() == 3) return;
 
   const Fan fan{first, corners.size(), line};
-  const auto position = [&](std::size_t i) { return mesh_.positions[corners[i].vertex]; };
+  const auto position = [&](std::size_t i) -> const Vector& { return mesh_.positions[corners[i].vertex]; };
   if (!is_complete) {
     waiting_.push_back(fan);
   } else if (corners.size() > 4 || !is_strictly_convex(position(0), position(1), position(2), position(3))) {
@@ -72,11 +81,13 @@ void ObjFaces::set_smoothing_group(std::uint32_t group) {
 void ObjFaces::add_polygon_ids(std::size_t triangle_count) {
   std::vector<std::uint32_t>& polygons = mesh_.polygons;
   if (polygons.empty() && triangle_count > 1) {
-    polygons.reserve(mesh_.triangles.capacity());
+    reserve_pages(polygons, mesh_.triangles.capacity());
     polygons.resize(polygon_count_);
     std::iota(polygons.begin(), polygons.end(), 0u);
   }
-  if (!polygons.empty() || triangle_count > 1) polygons.insert(polygons.end(), triangle_count, polygon_count_);
+  if (!polygons.empty() || triangle_count > 1) {
+    for (std::size_t i = 0; i < triangle_count; ++i) polygons.push_back(polygon_count_);
+  }
   ++polygon_count_;
 }
 

@@ -1,7 +1,5 @@
 #include "scene/obj_lines.h"
 
-#include "scene/number.h"
-
 namespace facemap {
 
 ObjLines::ObjLines(std::string_view text) : at_(text.data()), end_(text.data() + text.size()) {
@@ -26,6 +24,7 @@ void ObjLines::copy_line() {
     if (lines_taken_ == 1 && *skip_blanks(copy_.c_str()) == '#') continued = false;
   }
   copy_.back() = '\n';
+  copy_.append(kReadableBeyondEnd, '\n');
   begin_ = copy_.c_str();
 }
 

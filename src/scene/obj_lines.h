@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "scene/number.h"
+
 namespace facemap {
 
 /// Cuts OBJ or MTL text into logical lines. A backslash at the end of a line joins the next one to it, with a
@@ -20,7 +22,7 @@ class ObjLines {
     number_ += lines_taken_;
     lines_taken_ = 1;
     const auto* newline = static_cast<const char*>(std::memchr(at_, '\n', static_cast<std::size_t>(end_ - at_)));
-    if (newline == nullptr || is_continued(newline)) {
+    if (newline == nullptr || end_ - newline <= kReadableBeyondEnd || is_continued(newline)) {
       copy_line();
     } else {
       begin_ = at_;
@@ -29,7 +31,7 @@ class ObjLines {
     return true;
   }
 
-  /// The line, which ends in '\n'. Valid until next().
+  /// The line, which ends in '\n' with kReadableBeyondEnd bytes behind it. Valid until next().
   const char* begin() const { return begin_; }
 
   /// Where the line stands in the file, from 1; for a joined line, its first.
@@ -42,7 +44,7 @@ class ObjLines {
     return newline != at_ && newline[-1] == '\\';
   }
 
-  /// Takes lines that cannot be used in place: continued ones, and a last one without a newline.
+  /// Takes lines that cannot be used in place: continued ones, and those too near to the end of the text.
   void copy_line();
 
   const char* at_;

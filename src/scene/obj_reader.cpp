@@ -5,6 +5,7 @@
 
 #include "scene/number.h"
 #include "scene/obj_sizes.h"
+#include "scene/reserve_pages.h"
 #include "scene/smooth_normals.h"
 
 namespace facemap {
@@ -31,10 +32,10 @@ ObjReader::ObjReader(std::string_view text, std::string name, const std::filesys
       mtl_(directory, limits.max_bytes),
       faces_(mesh, warnings_) {
   const ObjSizes sizes = estimate_sizes(text);
-  mesh.positions.reserve(sizes.vertices);
-  mesh.texture_coordinates.reserve(sizes.texture_coordinates);
-  mesh.normals.reserve(sizes.normals);
-  mesh.triangles.reserve(std::min<std::uint64_t>(sizes.triangles, limits.max_faces));
+  reserve_pages(mesh.positions, sizes.vertices);
+  reserve_pages(mesh.texture_coordinates, sizes.texture_coordinates);
+  reserve_pages(mesh.normals, sizes.normals);
+  reserve_pages(mesh.triangles, std::min<std::uint64_t>(sizes.triangles, limits.max_faces));
 }
 
 void ObjReader::read() {
@@ -120,20 +121,37 @@ void ObjReader::read_texture_coordinates(const char* at) {
   if (!at_end(at)) read_floats(at, &depth, 1);
 }
 
-void ObjReader::read_face(const char* at) {
-  corners_.clear();
-  is_complete_ = true;
-  for (at = skip_blanks(at); !at_end(at); at = skip_blanks(at)) at = read_corner(at, corners_.emplace_back());
-  if (corners_.size() < 3) fail(LoadError::Cause::TruncatedStatement, "face of fewer than 3 corners");
-  if (mesh.triangles.size() + corners_.size() - 2 > limits_.max_faces) {
-    fail(LoadError::Cause::TooLarge, "more than " + std::to_string(limits_.max_faces) + " triangles");
+/// Reads an index that counts from 1 and names one of `count` that have been read; read_odd_index the others.
+inline const char* ObjReader::read_index(const char* const start, std::size_t count, IndexKind& kind,
+                                         std::uint32_t& index) {
+  constexpr std::ptrdiff_t kMostDigits = 9;  // that surely fit 32 bits
+  std::uint32_t written = 0;
+  const char* at = start;
+  while (is_digit(*at)) written = 10 * written + static_cast<std::uint32_t>(*at++ - '0');
+  index = written - 1;
+  return index < count && at - start <= kMostDigits ? at : read_odd_index(start, count, kind, index);
+}
+
+const char* ObjReader::read_odd_index(const char* const start, std::size_t count, IndexKind& kind,
+                                      std::uint32_t& index) {
+  std::int64_t written;
+  const char* const at = scan_index(start, written);
+  if (at == nullptr) fail_number(start);
+  const auto known = static_cast<std::int64_t>(count);
+  if (written < 0 && -written <= known) {
+    index = static_cast<std::uint32_t>(known + written);
+  } else if (written > 0) {
+    index = static_cast<std::uint32_t>(written - 1);
+    if (written > known) note_forward(written, kind);
+  } else {
+    fail(LoadError::Cause::BadIndex, "face refers to " + std::string(kind.noun) + " " + std::to_string(written) +
+                                         ", with " + std::to_string(known) + " before it");
   }
-  ++report.polygons;
-  faces_.add(corners_, lines_.number(), is_complete_);
+  return at;
 }
 
 /// Reads v, v/t, v//n or v/t/n.
-const char* ObjReader::read_corner(const char* const start, ObjCorner& corner) {
+inline const char* ObjReader::read_corner(const char* const start, ObjCorner& corner) {
   const char* at = read_index(start, mesh.positions.size(), vertex_indices_, corner.vertex);
   if (*at == '/') {
     ++at;
@@ -149,21 +167,16 @@ const char* ObjReader::read_corner(const char* const start, ObjCorner& corner) {
   return at;
 }
 
-const char* ObjReader::read_index(const char* const start, std::size_t count, IndexKind& kind, std::uint32_t& index) {
-  std::int64_t written;
-  const char* const at = scan_index(start, written);
-  if (at == nullptr) fail_number(start);
-  const auto known = static_cast<std::int64_t>(count);
-  if (written < 0 && -written <= known) {
-    index = static_cast<std::uint32_t>(known + written);
-  } else if (written > 0) {
-    index = static_cast<std::uint32_t>(written - 1);
-    if (written > known) note_forward(written, kind);
-  } else {
-    fail(LoadError::Cause::BadIndex, "face refers to " + std::string(kind.noun) + " " + std::to_string(written) +
-                                         ", with " + std::to_string(known) + " before it");
+void ObjReader::read_face(const char* at) {
+  corners_.clear();
+  is_complete_ = true;
+  for (at = skip_blanks(at); !at_end(at); at = skip_blanks(at)) at = read_corner(at, corners_.emplace_back());
+  if (corners_.size() < 3) fail(LoadError::Cause::TruncatedStatement, "face of fewer than 3 corners");
+  if (mesh.triangles.size() + corners_.size() - 2 > limits_.max_faces) {
+    fail(LoadError::Cause::TooLarge, "more than " + std::to_string(limits_.max_faces) + " triangles");
   }
-  return at;
+  ++report.polygons;
+  faces_.add(corners_, lines_.number(), is_complete_);
 }
 
 void ObjReader::note_forward(std::int64_t index, IndexKind& kind) {

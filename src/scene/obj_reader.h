@@ -54,6 +54,7 @@ class ObjReader {
   void read_smoothing_group(const char* at);
   const char* read_corner(const char* at, ObjCorner& corner);
   const char* read_index(const char* at, std::size_t count, IndexKind& kind, std::uint32_t& index);
+  const char* read_odd_index(const char* at, std::size_t count, IndexKind& kind, std::uint32_t& index);
   const char* read_float(const char* at, float& value);
   int read_floats(const char* at, float* values, int most);
   void note_forward(std::int64_t index, IndexKind& kind);

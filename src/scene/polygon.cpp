@@ -1,6 +1,7 @@
 #include "scene/polygon.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace facemap {
@@ -8,8 +9,8 @@ namespace facemap {
 namespace {
 
 int largest_component(const DVector& v) {
-  const int of_two = std::abs(v.x) > std::abs(v.y) ? 0 : 1;
-  return std::abs(v[of_two]) > std::abs(v.z) ? of_two : 2;
+  const double x = std::abs(v.x), y = std::abs(v.y), z = std::abs(v.z);
+  return 2 - (std::max(x, y) > z) * (1 + (x > y));  // without branches, which would often be foretold wrongly
 }
 
 /// A corner without its coordinate `dropped`.
@@ -35,6 +36,21 @@ int dropped_coordinate(std::span<const Vector> corners) {
   return std::abs(area[k]) > rounding * magnitude[k] ? k : largest_component(magnitude);
 }
 
+using Components = std::array<double, 3>;
+
+Components difference(const Vector& a, const Vector& b) {
+  return {static_cast<double>(a.x) - b.x, static_cast<double>(a.y) - b.y, static_cast<double>(a.z) - b.z};
+}
+
+Components cross(const Components& a, const Components& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+bool is_strictly_convex(PlanePoint a, PlanePoint b, PlanePoint c, PlanePoint d) {
+  const int turn = orientation(a, b, c);
+  return turn != 0 && orientation(b, c, d) == turn && orientation(c, d, a) == turn && orientation(d, a, b) == turn;
+}
+
 /// Whether the inner parts of two edges cross in one point.
 bool cross(PlanePoint a, PlanePoint b, PlanePoint c, PlanePoint d) {
   return orientation(a, b, c) * orientation(a, b, d) < 0 && orientation(c, d, a) * orientation(c, d, b) < 0;
@@ -43,12 +59,22 @@ bool cross(PlanePoint a, PlanePoint b, PlanePoint c, PlanePoint d) {
 }  // namespace
 
 bool is_strictly_convex(const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
-  const DVector u = DVector(c) - DVector(a), v = DVector(d) - DVector(b);
-  const int dropped = largest_component({u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x});
-  const PlanePoint p = projected(a, dropped), q = projected(b, dropped), r = projected(c, dropped),
-                   s = projected(d, dropped);
-  const int turn = orientation(p, q, r);
-  return turn != 0 && orientation(q, r, s) == turn && orientation(r, s, p) == turn && orientation(s, p, q) == turn;
+  const Components u = difference(b, a), v = difference(c, a), w = difference(d, a);
+  const Components abc = cross(u, v), acd = cross(v, w);
+  const int dropped = largest_component({abc[0] + acd[0], abc[1] + acd[1], abc[2] + acd[2]});
+
+  // Twice the areas of the triangles at the four corners, in the plane of the other two coordinates.
+  const int i = dropped == 2 ? 0 : dropped + 1, j = dropped == 0 ? 2 : dropped - 1;
+  const double at_b = abc[dropped], at_d = acd[dropped];
+  const double at_a = u[i] * w[j] - u[j] * w[i];
+  const double at_c = at_b + at_d - at_a;
+  // 3 roundings a product and 3 for the sums, and 2 for the bound itself.
+  const double bound = 8 * 0x1p-53 * (std::abs(u[i]) + std::abs(v[i]) + std::abs(w[i])) *
+                       (std::abs(u[j]) + std::abs(v[j]) + std::abs(w[j]));
+  const bool all_left = std::min({at_a, at_b, at_c, at_d}) > bound;
+  const bool all_right = std::max({at_a, at_b, at_c, at_d}) < -bound;
+  if (all_left | all_right) return true;  // one branch: which of them holds, nothing foretells
+  return is_strictly_convex(projected(a, dropped), projected(b, dropped), projected(c, dropped), projected(d, dropped));
 }
 
 PolygonCutter::Result PolygonCutter::cut(std::span<const Vector> corners) {

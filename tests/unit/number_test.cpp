@@ -17,7 +17,7 @@ namespace {
 
 /// What scan_float makes of a whole word.
 std::optional<float> scan(const std::string& word) {
-  const std::string line = word + "\n";
+  const std::string line = word + "\n" + std::string(kReadableBeyondEnd, '5');
   float value = -77;
   const char* const end = scan_float(line.c_str(), value);
   if (end == nullptr) return std::nullopt;
