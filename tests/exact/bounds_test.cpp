@@ -264,6 +264,22 @@ TEST(Bounds, ConesOfFacesSeenNearlyAlongAnEdgeKeepTheirCaps) {
   }
 }
 
+// The origin is a hair above a face's plane: what rounding does to the normal is then a large share of the distance.
+TEST(Bounds, ConesOfFacesJustBelowTheOriginAreNotNearerThanTheyAre) {
+  Random random(0x5eed0067);
+  for (int i = 0; i < 2000; ++i) {
+    const auto below = static_cast<float>(std::pow(2.0, random.between(-45.0, -25.0)));
+    const SpaceVector frame = SpaceVector::looking_along(Vector(0), random.direction());
+    const Triangle face{Vector(5, 3, -below), Vector(-7, 2, -below), Vector(1, -6, -below)};
+    const Cone cone(face, side(face, Vector(0)), frame);
+    const DVector d = tilted({0, 0, -1}, random.between(0.0, 1.4), random);
+    const Cone::Radius radius(0x1p-40);
+    const DVector c = frame.local_from_world(d);
+    ASSERT_TRUE(cone.surely_covers(c, radius));
+    ASSERT_GE(cone.farthest(c, radius), static_cast<double>(below) / -d.z * (1 - kRounding)) << below;
+  }
+}
+
 TEST(Bounds, AListIsCutOnlyBehindItsMargin) {
   constexpr float kCut = 2;
   constexpr double kMargin = Texels::kDepthMargin;

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "support/random.h"
+
 namespace {
 
 using facemap::blocks;
@@ -43,6 +45,14 @@ TEST(ExactSign, MixedMagnitudesAreDecidedExactly) {
   EXPECT_EQ(side(f, Vector(0)), 1);
   EXPECT_EQ(side(f, Vector(1e30f, 1, 1)), 0);
   EXPECT_EQ(side(f, Vector(std::nextafter(1e30f, INFINITY), 0, 0)), -1);
+}
+
+TEST(ExactSign, ADifferenceThatNoDoubleHoldsDecidesASide) {
+  const float big = 0x1p60f;                                                                     // big - 1 has 60 bits
+  const Triangle f{Vector(big, -big, 0), Vector(big, -big, big), Vector(2 * big, -2 * big, 0)};  // in x + y = 0
+  EXPECT_EQ(side(f, Vector(1, 0, 0)), -1);
+  EXPECT_EQ(side(f, Vector(0)), 0);
+  EXPECT_EQ(side(f, Vector(-1, 0, 0)), 1);
 }
 
 TEST(ExactSign, EdgesAndVerticesCountAsInside) {
@@ -113,6 +123,39 @@ TEST(ExactSign, OffsetsAreSharp) {
   const facemap::DVector E = offset_from(Vector(1e-3f, 0, 0), grazing, ray_parameter(grazing));
   EXPECT_NEAR(E.x, -double(1e-3f), 1e-15);
   EXPECT_NEAR(E.y, 0, 1e-15);
+}
+
+TEST(ExactSign, OffsetsAreSharpHoweverGrazingTheRay) {
+  // Rays along a face's plane, up to rounding, that meet it exactly in its first corner: t is 1.
+  Random random(0x5eed0070);
+  const auto coordinate = [&] { return 1 + static_cast<float>(random.below(1 << 23)) * 0x1p-23f; };
+  const auto vertex = [&] {
+    const float x = coordinate(), y = coordinate(), z = coordinate();
+    return Vector(x, y, z);
+  };
+  int asked = 0, by_exact = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const Vector a = vertex(), b = vertex(), c = vertex();
+    const Triangle f{a, b, c};
+    const facemap::DVector A(a), u = facemap::DVector(b) - A, v = facemap::DVector(c) - A;
+    const double p = random.between(-0.5, 0.5), q = random.between(-0.5, 0.5);
+    const Vector K(A + p * u + q * v), d = a - K;
+    const int s = side(f, K);
+    if (s == 0 || facemap::DVector(d) != A - facemap::DVector(K)) continue;
+    const TruePoint point{K, d, f, s};
+    const facemap::Tracked t = ray_parameter(point);
+    ++asked;
+    by_exact += t.error > 0x1p-40;
+    ASSERT_LE(std::fabs(t.value - 1), t.error * (1 + 0x1p-40));
+    ASSERT_LE(std::fabs(sharp_ray_parameter(point, t) - 1), 0x1p-30);
+    const Vector L(A + std::pow(2.0, random.between(-12.0, 0.0)) * random.direction());
+    const facemap::DVector expected = A - facemap::DVector(L), error = offset_from(L, point, t) - expected;
+    ASSERT_LE(error.x * error.x + error.y * error.y + error.z * error.z,
+              facemap::kDirectionError * facemap::kDirectionError *
+                  (expected.x * expected.x + expected.y * expected.y + expected.z * expected.z));
+  }
+  EXPECT_GT(asked, 2000);
+  EXPECT_GT(by_exact, 1000);
 }
 
 TEST(ExactSign, NamedFaceProjectsThePoint) {

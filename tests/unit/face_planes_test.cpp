@@ -77,6 +77,35 @@ TEST(FacePlanes, FilterNeverContradictsTheExactSigns) {
   EXPECT_GT(total, 100000);
 }
 
+// An edge nearly along the line of sight, its near end finer than its far one: double precision too leaves its plane
+// an error, far above a float's rounding.
+TEST(FacePlanes, FilterNeverContradictsTheExactSignsBesideAnEdgeSeenEndOn) {
+  Random random(14);
+  int decided = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vector O = random_vector(random, 0x1p-10);
+    const Vector a = random_vector(random, 1);
+    const Vector b(DVector(O) + (DVector(a) - DVector(O)) * (0x1p-11 * (1 + random.unit())));
+    facemap::Mesh mesh;
+    mesh.positions = {a, b, random_vector(random, 1)};
+    mesh.triangles = {{0, 1, 2}};
+    const Scene scene(mesh);
+    const facemap::FacePlanesTable planes(scene, O);
+    if (planes.side(0) == 0) continue;
+    const double aside = std::pow(2.0, random.between(-30.0, -5.0));
+    const Vector d(DVector(a) - DVector(O) + random.direction() * aside);
+    const float D[3] = {d.x, d.y, d.z};
+    const std::uint32_t id = 0;
+    facemap::simd::Verdict verdict;
+    facemap::simd::cone_verdicts(planes.planes(), &id, 1, D, float(length(DVector(d)) * 1.000001), &verdict);
+    if (verdict == facemap::simd::kUndecided) continue;
+    ++decided;
+    ASSERT_EQ(verdict == facemap::simd::kYes,
+              facemap::covers(facemap::triangle_of(scene, 0), planes.side(0), O, d).hit);
+  }
+  EXPECT_GT(decided, 1000);
+}
+
 TEST(FacePlanes, FilterDecidesAlmostEverythingAwayFromEdges) {
   Random random(12);
   for (const double scale : {1.0, 1e-30, 1e30}) {

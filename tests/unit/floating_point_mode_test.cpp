@@ -42,13 +42,15 @@ TEST(FloatingPointMode, AnswersAreTheSameInACallersHostileModeAndTheModeIsKept) 
   EXPECT_GT(seen, 0);
 }
 
+facemap::Vector downwards(int i) { return {0.01f * static_cast<float>(i) - 0.4f, -1, 0.1f}; }
+
 // By themselves, not under a renderer that has set the mode already.
 TEST(FloatingPointMode, ProjectionsAndTexelsAreTheSameInACallersHostileMode) {
   facemap::Mesh mesh;
   mesh.positions = {{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}};
   mesh.triangles = {{0, 1, 2}};
   const facemap::Scene scene(mesh);
-  const auto frame = facemap::SpaceVector::looking_along({0, 1, 0}, facemap::DVector(1, -2, 3));
+  const auto frame = facemap::SpaceVector::looking_along({0, 1, 0}, facemap::DVector(1, -9, 3));
   const facemap::DVector denormal(0x1p-1030, -0x1p-1029, 0x1.8p-1029);
   for (const auto kind : {facemap::ProjectionKind::Surface, facemap::ProjectionKind::Plane}) {
     facemap::Camera::Options options;
@@ -62,7 +64,10 @@ TEST(FloatingPointMode, ProjectionsAndTexelsAreTheSameInACallersHostileMode) {
       _mm_setcsr(kHostileMode);
       const facemap::Camera camera(scene, frame, options);
       const auto texel = camera.texel_of(denormal);
+      std::vector<float> depths;
+      for (int i = 0; i < 30; ++i) depths.push_back(camera.nearest(downwards(i)).depth);
       _mm_setcsr(saved);
+      for (int i = 0; i < 30; ++i) EXPECT_EQ(depths[i], expected.nearest(downwards(i)).depth) << i;
       EXPECT_EQ(camera.projection().texel_angle(), expected.projection().texel_angle());
       ASSERT_EQ(texel.has_value(), expected_texel.has_value());
       EXPECT_TRUE(!texel || (texel->x == expected_texel->x && texel->y == expected_texel->y));

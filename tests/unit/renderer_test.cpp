@@ -236,6 +236,40 @@ TEST(Renderer, LiftThatRoundingUndoesLeavesNoSpecks) {
   EXPECT_EQ(dark, 0) << "the light stands at the camera: every pixel is lit";
 }
 
+TEST(Renderer, NormalsAreBlendedByTheNearnessOfTheirCornersOnEitherSideOfTheFace) {
+  Mesh mesh;
+  mesh.positions = {{-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}};
+  mesh.triangles = {{0, 1, 2}};
+  mesh.normals = {{0, 1, 0}, {3, 4, 0}, {0, 12, 5}};
+  mesh.normal_corners = mesh.triangles;
+  const std::vector<Light> lights{{{0, 1e6f, 0}}};  // cosines are the normals' y
+  Renderer::Options options = small(129);
+  options.shadow_terminator_fix = false;
+  const Scene scene(mesh);
+  const Image image = Renderer(scene, from_above(), lights, options).render();
+  // 129 pixels are 20 tan(25 degrees) = 9.33 wide: 13.8 a unit, the corners 41.5 pixels from the middle.
+  EXPECT_NEAR(image.pixels[pixel(image, 23 + 2, 23 + 4)].r, 1.0, 0.04);
+  EXPECT_NEAR(image.pixels[pixel(image, 23 + 2, 105 - 4)].r, 4.0 / 5, 0.04);
+  EXPECT_NEAR(image.pixels[pixel(image, 105 - 4, 105 - 2)].r, 12.0 / 13, 0.04);
+
+  for (Vector& n : mesh.normals) n = -n;
+  const Scene turned(mesh);
+  EXPECT_TRUE(Renderer(turned, from_above(), lights, options).render().pixels == image.pixels);
+}
+
+TEST(Renderer, EdgeSamplingFindsAFaceBetweenPixelCentres) {
+  Mesh mesh;  // pixels are 0.28 wide, the middle one's centre at the origin, samples at 0.035 and 0.106 from it
+  mesh.positions = {{0.06f, 0, 0.06f}, {0.06f, 0, 0.2f}, {0.2f, 0, 0.06f}};
+  mesh.triangles = {{0, 1, 2}};
+  const Scene scene(mesh);
+  Renderer::Options options = small();
+  options.sampling = Renderer::Sampling::Edges;
+  options.samples = 4;
+  const Image image = Renderer(scene, from_above(), {{{0, 5, 0}}}, options).render();
+  EXPECT_EQ(image.ids[pixel(image, 16, 16)], kNoFace);
+  EXPECT_NEAR(image.pixels[pixel(image, 16, 16)].r, 1.0 / 16, 0.01);
+}
+
 TEST(Renderer, NormalsThatAreNotFiniteCountAsNone) {
   Mesh mesh = floor_and_lid();
   const std::vector<Light> lights{{{0, 5, 0}}};
@@ -292,6 +326,11 @@ TEST(Renderer, MadeUpViewFitsTheSceneAndMadeUpLightsStandAround) {
   const facemap::DVector to_centre = scene.centre() - facemap::DVector(view.position);
   const double distance = std::sqrt(to_centre.x * to_centre.x + to_centre.y * to_centre.y + to_centre.z * to_centre.z);
   EXPECT_NEAR(scene.bounding_radius() / distance, std::sin(view.field_angle / 2), 1e-6);
+  View wide;
+  wide.field_angle = 3.1;
+  const auto from_wide = scene.centre() - facemap::DVector(facemap::make_up_view(scene, wide).position);
+  const double squared = from_wide.x * from_wide.x + from_wide.y * from_wide.y + from_wide.z * from_wide.z;
+  EXPECT_NEAR(std::sqrt(squared), 1.05 * scene.bounding_radius(), 1e-5) << "outside the sphere, however wide the field";
   const auto lights = facemap::make_up_lights(scene);
   ASSERT_EQ(lights.size(), 8u);
   EXPECT_NEAR(lights[0].position.x - scene.centre().x, 1.6 * scene.bounding_radius(), 1e-5);
