@@ -126,7 +126,7 @@ TEST(ExactSign, OffsetsAreSharp) {
 }
 
 TEST(ExactSign, OffsetsAreSharpHoweverGrazingTheRay) {
-  // Rays along a face's plane, up to rounding, that meet it exactly in its first corner: t is 1.
+  // Rays along a face's plane, up to rounding, that meet it exactly in its second corner: t is 1.
   Random random(0x5eed0070);
   const auto coordinate = [&] { return 1 + static_cast<float>(random.below(1 << 23)) * 0x1p-23f; };
   const auto vertex = [&] {
@@ -136,7 +136,7 @@ TEST(ExactSign, OffsetsAreSharpHoweverGrazingTheRay) {
   int asked = 0, by_exact = 0;
   for (int i = 0; i < 4000; ++i) {
     const Vector a = vertex(), b = vertex(), c = vertex();
-    const Triangle f{a, b, c};
+    const Triangle f{b, a, c};
     const facemap::DVector A(a), u = facemap::DVector(b) - A, v = facemap::DVector(c) - A;
     const double p = random.between(-0.5, 0.5), q = random.between(-0.5, 0.5);
     const Vector K(A + p * u + q * v), d = a - K;
