@@ -29,6 +29,10 @@ void validate(const Renderer::Options& options, const std::vector<Light>& lights
   if (options.samples < 1 || options.samples > 16) throw Error("samples a side of a pixel must be 1 to 16");
   if (!is_valid(options.background)) throw Error("background must be finite and not negative");
   for (std::size_t i = 0; i < lights.size(); ++i) {
+    const Vector& p = lights[i].position;
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      throw Error("position of light " + std::to_string(i) + " is not finite");
+    }
     if (!is_valid(lights[i].color) || !(lights[i].intensity >= 0) || !std::isfinite(lights[i].intensity)) {
       throw Error("colour and intensity of light " + std::to_string(i) + " must be finite and not negative");
     }

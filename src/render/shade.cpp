@@ -9,6 +9,22 @@
 namespace facemap {
 namespace {
 
+// Lifts below this share of the face's largest coordinate are noise: normals and the lifted point are rounded to
+// float32, half a unit of 2^-24 for each coordinate, sqrt(3) for three.
+constexpr double kLeastLift = 0x1p-23;
+
+double largest_coordinate(const DVector (&v)[3]) {
+  double largest = 0;
+  for (const DVector& a : v) largest = std::max({largest, std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
+  return largest;
+}
+
+// Where the line from K along d meets the plane; a ray so grazing that its slope rounds to zero gets the corner.
+DVector point_on_plane(const DVector& K, const DVector& d, const DVector& corner, const DVector& n) {
+  const double t = dot(n, corner - K) / dot(n, d);
+  return std::isfinite(t) ? K + d * t : corner;
+}
+
 // Weights of the corners at a point of the plane, not below 0 and of sum 1.
 DVector barycentric(const DVector (&v)[3], const DVector& n, const DVector& p) {
   DVector weights(std::max(0.0, dot(n, cross(v[2] - v[1], p - v[1]))),
@@ -35,12 +51,11 @@ Shader::Shader(const Camera& camera, std::span<const PointLight> lights, const R
 Shader::Surface Shader::surface_at(const Vector& direction, const Camera::Hit& hit) const {
   Surface surface;
   surface.point = camera_.surface_point(direction, hit);
-  const DVector d = normalized(DVector(direction));
-  surface.position = DVector(camera_.position()) + d * static_cast<double>(hit.depth);
-
   const Face face = camera_.scene().mesh().face(static_cast<std::size_t>(hit.face));
   const DVector v[3] = {DVector(face.vertices[0]), DVector(face.vertices[1]), DVector(face.vertices[2])};
   const DVector n = cross(v[1] - v[0], v[2] - v[0]);
+  const DVector weights = barycentric(v, n, point_on_plane(DVector(camera_.position()), DVector(direction), v[0], n));
+  surface.position = v[0] * weights.x + v[1] * weights.y + v[2] * weights.z;
   // s < 0: the face is turned towards the camera, its normal with it.
   const DVector towards_camera = normalized(n) * (hit.side < 0 ? 1.0 : -1.0);
   surface.normal = towards_camera;
@@ -55,7 +70,6 @@ Shader::Surface Shader::surface_at(const Vector& direction, const Camera::Hit& h
   }
   // All three are turned together: a file's normals may point to either side of the face.
   const double turn = dot(sum, towards_camera) < 0 ? -1 : 1;
-  const DVector weights = barycentric(v, n, surface.position);
   DVector smooth(0);
   DVector shift(0);
   for (int i = 0; i < 3; ++i) {
@@ -68,8 +82,8 @@ Shader::Surface Shader::surface_at(const Vector& direction, const Camera::Hit& h
   const DVector unit = normalized(smooth);
   if (unit == DVector(0)) return surface;
   surface.normal = unit;
-  if (options_.shadow_terminator_fix && shift != DVector(0)) {
-    // A short lift may be lost in rounding to float32 and leave the point on its face or below: then it is no lift.
+  if (options_.shadow_terminator_fix && length(shift) > kLeastLift * largest_coordinate(v)) {
+    // The lift may still be lost in rounding and leave the point on its face or below: then it is no lift.
     surface.moved = Vector(surface.position + shift);
     surface.is_moved = side(face.vertices, surface.moved) == hit.side;
   }

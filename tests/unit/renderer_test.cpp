@@ -285,6 +285,25 @@ TEST(Renderer, NormalsThatAreNotFiniteCountAsNone) {
   }
 }
 
+TEST(Renderer, NormalsOfAFlatFaceLiftNothing) {
+  // The plane's own normals: what rounding leaves below the corners' planes must not pass for a lift.
+  Mesh mesh = floor_and_lid();
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  for (Vector& v : mesh.positions) v = Vector(float(c * v.x - s * v.y + 3), float(s * v.x + c * v.y - 2), v.z + 1);
+  mesh.normals = {Vector(float(-s), float(c), 0)};
+  mesh.normal_corners.assign(4, {0, 0, 0});
+  const Scene scene(mesh);
+  View view;
+  view.position = {3, 9, 2};
+  view.look_at = {3, -2, 1};
+  const std::vector<Light> lights{{{1, 4, 2}}, {{6, 3, -1}}, {{-2, -4, 0}}, {{9, -6, 3}}};
+  Renderer::Options options = small(97);
+  const Image smooth = Renderer(scene, view, lights, options).render();
+  options.normals = Renderer::Normals::Flat;
+  const Image flat = Renderer(scene, view, lights, options).render();
+  EXPECT_EQ(smooth.lights, flat.lights);
+}
+
 TEST(Renderer, ProgressRunsToTheEndAndCanStop) {
   const Scene scene(floor_and_lid());
   double last = -1;
@@ -312,6 +331,7 @@ TEST(Renderer, RefusesOptionsOutOfRange) {
   options.background.g = NAN;
   EXPECT_THROW(Renderer(scene, from_above(), {}, options), facemap::Error);
   EXPECT_THROW(Renderer(scene, from_above(), {{{0, 1, 0}, {1, 1, 1}, -1}}, small()), facemap::Error);
+  EXPECT_THROW(Renderer(scene, from_above(), {{{0, INFINITY, 0}}}, small()), facemap::Error);
   View bad = from_above();
   bad.up = {0, 1, 0};
   EXPECT_THROW(Renderer(scene, bad, {}, small()), facemap::Error);
