@@ -40,9 +40,9 @@ class Camera : public FaceMap {
     explicit operator bool() const noexcept { return face != kNoFace; }
   };
 
-  /// The nearest face along `direction` (any length); none for the zero vector, what is not finite and outside the raster. Edges
-  /// and vertices belong to their faces. Of faces at exactly the same distance the one turned towards the
-  /// camera wins, then the lower id. Exact with Builder::Cover.
+  /// The nearest face along `direction` (any length); none for the zero vector, for what is not finite and outside
+  /// the raster. Edges and vertices belong to their faces. Of faces at exactly the same distance the one turned
+  /// towards the camera wins, then the lower id. Exact with Builder::Cover.
   Hit nearest(const Vector& direction, Counters* counters = nullptr) const;
 
   /// The true point that `hit = nearest(direction)` sees. `hit` must hold a face.

@@ -14,10 +14,11 @@ namespace facemap {
 /// The exact builder: every texel that a face touches, never one too few.
 ///
 /// Why it is a superset. A query direction D is handed to the map with an angular error of at most
-/// kDirectionError; its computed map point, but for the rounding of coordinates (2^-39 texels), is the exact image of a
-/// direction at most Projection::kMapError farther. Both inverse projections never lengthen a path, so that direction lies within texel_angle sqrt(2)/2
-/// of the texel's centre direction c, and D within texel_cap_radius() of it. A texel is kept unless no direction
-/// of that cap hits the face (Cone::may_meet). Blocks of texels are the same with a larger cap.
+/// kDirectionError; its computed map point, but for the rounding of coordinates (2^-39 texels), is the exact image
+/// of a direction at most Projection::kMapError farther. Both inverse projections never lengthen a path, so that
+/// direction lies within texel_angle sqrt(2)/2 of the texel's centre direction c, and D within block_cap_radius()
+/// of it. A texel is kept unless no direction of that cap hits the face (Cone::may_meet). Blocks of texels are the
+/// same with a larger cap.
 struct Coverage {
   std::vector<TexelEntry> entries;  ///< front to back: by nearest bound, then id
   std::vector<float> cuts;  ///< a texel: upper bound (map units) of the distance of a face that covers all of its cap

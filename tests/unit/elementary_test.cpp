@@ -61,7 +61,8 @@ TEST(Elementary, ExponentialLogarithmAndPowerKeepTheirBounds) {
 }
 
 TEST(Elementary, ArcTangentOfWhatHasNoAngleIsNaN) {
-  for (const auto& [y, x] : {std::pair{NAN, 1.0}, {1.0, NAN}, {NAN, NAN}, {HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, HUGE_VAL}}) {
+  for (const auto& [y, x] :
+       {std::pair{NAN, 1.0}, {1.0, NAN}, {NAN, NAN}, {HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, HUGE_VAL}}) {
     EXPECT_TRUE(std::isnan(own::atan2(y, x))) << y << ' ' << x;
   }
 }
