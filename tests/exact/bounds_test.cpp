@@ -64,6 +64,22 @@ TEST(Bounds, TheCapOfABlockHoldsEveryDirectionThatProjectsIntoIt) {
   EXPECT_GT(fullest, 0.99);  // and not much too large: corners of small texels reach it
 }
 
+TEST(Bounds, TheCapOfATexelHoldsDirectionsThatAreOffByTheirError) {
+  // A direction that belongs just outside a corner may be handed to the map just inside it. The smaller the field,
+  // the more of a texel that error is.
+  for (const double field : {1e-6, 1e-3, 0.87, 3.0}) {
+    for (const ProjectionKind kind : {ProjectionKind::Surface, ProjectionKind::Plane}) {
+      const Projection projection(kind, field, 64, 64);
+      const double outside = 0.5 * 0.999 * facemap::kDirectionError / projection.texel_angle();  // texels in x and y
+      for (int texel = 20; texel < 44; ++texel) {
+        const DVector c = projection.local_from_map(MapPoint(texel + 0.5, texel + 0.5));
+        const DVector corner = projection.local_from_map(MapPoint(texel + 1 + outside, texel + 1 + outside));
+        EXPECT_LE(angle_between(corner, c), block_cap_radius(projection, 1)) << field << ' ' << texel;
+      }
+    }
+  }
+}
+
 TEST(Bounds, ADirectionStaysInItsTexelsCapOverWholeFields) {
   Random random(0x5eed0061);
   for (int round = 0; round < 400; ++round) {

@@ -13,7 +13,6 @@
 namespace {
 
 using facemap::DVector;
-using facemap::kDirectionError;
 using facemap::MapPoint;
 using facemap::Projection;
 using facemap::ProjectionKind;
@@ -25,27 +24,6 @@ double dot(const DVector& a, const DVector& b) { return a.x * b.x + a.y * b.y + 
 double length(const DVector& a) { return std::sqrt(dot(a, a)); }
 DVector cross(const DVector& a, const DVector& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-double angle(const DVector& a, const DVector& b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
-
-TEST(Cover, CapOfATexelHoldsEveryDirectionThatIsMappedIntoIt) {
-  // Directions come with an error of up to kDirectionError: one that belongs just outside a corner may be mapped
-  // just inside it. The smaller the field, the more of a texel that error is.
-  for (const double field : {1e-6, 1e-3, 0.87, 3.0}) {
-    for (const ProjectionKind kind : {ProjectionKind::Surface, ProjectionKind::Plane}) {
-      const Projection projection(kind, field, 64, 64);
-      const double radius = facemap::block_cap_radius(projection, 1);
-      const double tau = projection.texel_angle();
-      for (int texel = 20; texel < 44; ++texel) {
-        const MapPoint centre(texel + 0.5, texel + 0.5);
-        const DVector c = projection.local_from_map(centre);
-        // The error may push the map point inwards by a little less than kDirectionError / tau texels.
-        const double outside = 0.5 * 0.999 * kDirectionError / tau;
-        const MapPoint corner(texel + 1 + outside, texel + 1 + outside);
-        EXPECT_LE(angle(projection.local_from_map(corner), c), radius) << field << " " << texel;
-      }
-    }
-  }
 }
 
 TEST(Cover, BulgeBoundsTheImageOfAnEdgeAndIsTight) {
