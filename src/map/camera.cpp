@@ -28,10 +28,6 @@ struct FilterDirection {
   }
 };
 
-bool is_zero_or_not_finite(const Vector& v) {
-  return !(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z)) || (v.x == 0 && v.y == 0 && v.z == 0);
-}
-
 // The nearest of the faces met so far, by exact comparison.
 class Nearest {
  public:
@@ -104,9 +100,8 @@ Vector Camera::direction_through(const MapPoint& point) const {
 
 Camera::Hit Camera::nearest(const Vector& direction, Counters* counters) const {
   const FloatingPointMode mode;
-  if (is_zero_or_not_finite(direction)) return {};
   const std::optional<Texel> texel = texel_of(DVector(direction));
-  if (!texel) return {};
+  if (!texel) return {};  // nor for a direction that is zero or not finite
   const FilterDirection filter(direction);
   Nearest best(scene(), position(), direction, counters);
   const std::span<const std::uint32_t> ids = faces_at(texel->x, texel->y);

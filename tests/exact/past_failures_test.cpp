@@ -118,7 +118,7 @@ TEST(PastFailure, DirectionsThatAreNotFiniteHitNothing) {
   for (const ProjectionKind projection : {ProjectionKind::Surface, ProjectionKind::Plane}) {
     options.projection = projection;
     const Camera camera(scene, SpaceVector::looking_along({0, 0, 0}, DVector(1, 2, 3)), options);
-    for (const Vector& d : {Vector(nan, 0, 1), Vector(1, 2, nan), Vector(infinity, 0, 0),
+    for (const Vector& d : {Vector(0), Vector(nan, 0, 1), Vector(1, 2, nan), Vector(infinity, 0, 0),
                             Vector(infinity, 1, -infinity), Vector(infinity, infinity, infinity)}) {
       EXPECT_FALSE(camera.texel_of(DVector(d)));
       EXPECT_EQ(camera.count_hits(d), 0);
