@@ -45,6 +45,13 @@ class Renderer {
     Edges,  ///< the paper's way (Fig. 3): one sample, and samples x samples where the pixel may hold an edge
   };
 
+  /// How the questions of a picture are answered; the answers are the same.
+  enum class Strategy {
+    Auto,        ///< by the cost model
+    Lists,       ///< the paper's: a map of faces a light, each point asked by itself
+    Transposed,  ///< points sorted into a map about the light, faces run over them: no lists are made
+  };
+
   struct Options {
     int width = 1024;   ///< pixels
     int height = 1024;  ///< pixels
@@ -56,6 +63,9 @@ class Renderer {
     Color background{0, 0, 0};  ///< linear RGB
     Builder builder = Builder::Cover;
     bool want_ids = false, want_depths = false, want_lights = false;  ///< planes to fill
+    Strategy strategy = Strategy::Auto;
+    int threads = 0;             ///< 0: as many as the process may run at once
+    std::size_t map_memory = 0;  ///< bytes that maps and working memory may take, as far as possible; 0: no limit
   };
 
   struct Statistics {
@@ -63,7 +73,9 @@ class Renderer {
     std::uint64_t camera_queries = 0, light_queries = 0;
     std::uint64_t upsampled_pixels = 0;
     Counters camera_tests, light_tests;
-    std::size_t map_bytes = 0;  ///< lists and planes of all maps
+    std::size_t map_bytes = 0;           ///< lists and planes of all maps, and working memory
+    Strategy strategy = Strategy::Auto;  ///< the one taken: Lists or Transposed
+    std::string reason;                  ///< why
   };
 
   /// Fraction done (0..1) and the phase's name; called now and then. Return false to stop: render() then throws Error.
@@ -74,6 +86,12 @@ class Renderer {
 
   /// The same pixels and planes every time. Pixels without a face have the background's colour.
   Image render(const Progress& progress = {});
+
+  /// What render() sees, without colours: the planes `ids` and `lights` of the rays through the pixels' centres.
+  Image look(const Progress& progress = {});
+
+  /// Another camera on the same scene and lights, whose maps are kept.
+  void set_view(const View& view);
 
   const Statistics& statistics() const noexcept { return statistics_; }
 

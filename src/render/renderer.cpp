@@ -91,4 +91,24 @@ Image Renderer::render(const Progress& progress) {
   return image;
 }
 
+Image Renderer::look(const Progress& progress) {
+  const Options options = options_;
+  options_.sampling = Sampling::Grid;
+  options_.samples = 1;
+  options_.normals = Normals::Flat;
+  options_.want_ids = options_.want_lights = true;
+  options_.want_depths = false;
+  Image image = render(progress);
+  options_ = options;
+  image.pixels = {};
+  return image;
+}
+
+void Renderer::set_view(const View& view) {
+  const FloatingPointMode mode;
+  Projection(view.projection, view.field_angle, options_.width, options_.height);
+  SpaceVector::looking_at(view.position, view.look_at, view.up);
+  view_ = view;
+}
+
 }  // namespace facemap

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Includes point one way, as in docs/architecture.md: scene, map, render; math and simd serve all three and know
-# none of them. Programs include the public headers alone.
+# Includes point one way, as in docs/architecture.md: scene, map, picture, render; math, simd and parallel serve them
+# and know none of them. Programs include the public headers alone.
 set -eu
 failed=0
 
@@ -13,8 +13,9 @@ forbid() {
   fi
 }
 
-forbid 'src/math src/simd' '(scene|map|render)'
-forbid 'src/scene' '(map|render)'
-forbid 'src/map' 'render'
-forbid 'apps examples' '(math|simd|scene|map|render)'
+forbid 'src/math src/simd src/parallel' '(scene|map|picture|render)'
+forbid 'src/scene' '(map|picture|render)'
+forbid 'src/map' '(picture|render)'
+forbid 'src/picture' 'render'
+forbid 'apps examples' '(math|simd|parallel|scene|map|picture|render)'
 exit $failed

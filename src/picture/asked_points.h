@@ -1,0 +1,27 @@
+#pragma once
+
+#include <facemap/vector.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace facemap {
+
+/// "This point lies on no face."
+inline constexpr std::uint32_t kNoOwnFace = 0xffffffffu;
+
+/// Points that lights are asked about, in an order that keeps neighbours together. Coordinates are held as 32-bit
+/// integers: point i is within `error` of origin + step * (x[i], y[i], z[i]).
+struct AskedPoints {
+  DVector origin{0};
+  double step = 1;   ///< world units, above 0
+  double error = 0;  ///< world units, rounding to integers included
+  std::vector<std::int32_t> x, y, z;
+  std::vector<std::uint32_t> faces;    ///< the face a point lies on, which never blocks it, or kNoOwnFace
+  std::vector<std::uint32_t> samples;  ///< the sample of the picture that sees it
+
+  std::size_t size() const noexcept { return x.size(); }
+};
+
+}  // namespace facemap

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <facemap/counters.h>
+#include <facemap/scene.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "picture/asked_points.h"
+
+namespace facemap {
+
+/// Working memory of clear_blocked, kept from light to light. One a thread.
+class ShadowScratch {
+ public:
+  ShadowScratch();
+  ~ShadowScratch();
+  ShadowScratch(ShadowScratch&&) noexcept;
+  ShadowScratch& operator=(ShadowScratch&&) noexcept;
+
+  std::size_t memory_bytes() const noexcept;
+
+  struct Parts;
+  Parts& parts() noexcept { return *parts_; }
+
+ private:
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Whether face `face`, whose side towards the light is `side`, stands strictly between the light and point `point`:
+/// the exact answer, asked where the float32 filter leaves it open.
+using BlocksExactly = std::function<bool(std::size_t point, std::uint32_t face, int side)>;
+
+/// One bit of each point's mask: masks[point * stride + bit / 8], least significant first.
+struct MaskBit {
+  std::uint8_t* masks;
+  std::size_t stride;  ///< bytes a point
+  int bit;
+};
+
+/// For every point whose bit is set: clears it if some kept face stands strictly between `light` and the point. The
+/// transposed way: points are sorted into a raster about the light, then the faces run over them; no list is made.
+/// `skip_entries` (one byte a face, or null): where it is not 0 the face may be left out if it is turned towards the
+/// light (entry faces of closed parts). Exact, whatever the order.
+void clear_blocked(const Scene& scene, const Vector& light, const AskedPoints& points, const MaskBit& mask,
+                   const std::uint8_t* skip_entries, const BlocksExactly& blocks_exactly, ShadowScratch& scratch,
+                   Counters* counters = nullptr);
+
+}  // namespace facemap
