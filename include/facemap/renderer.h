@@ -87,7 +87,8 @@ class Renderer {
   /// The same pixels and planes every time. Pixels without a face have the background's colour.
   Image render(const Progress& progress = {});
 
-  /// What render() sees, without colours: the planes `ids` and `lights` of the rays through the pixels' centres.
+  /// What render() sees, without colours: the planes `ids` and `lights` of every sample, so that the image is
+  /// Options::samples times as wide and as high. Points are the true points of the faces (Normals::Flat).
   Image look(const Progress& progress = {});
 
   /// Another camera on the same scene and lights, whose maps are kept.
