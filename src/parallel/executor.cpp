@@ -1,50 +1,100 @@
 #include "parallel/executor.h"
 
+#if FACEMAP_HAS_TBB
 #include <tbb/blocked_range.h>
-#include <tbb/info.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
 #include <tbb/task_arena.h>
+#else
+#include "parallel/thread_pool.h"
+#endif
 
 #include <algorithm>
+#include <mutex>
+#include <thread>
+
+#if defined(__linux__)
+#include <sched.h>
+#endif
 
 #include "simd/floating_point_mode.h"
 
 namespace facemap {
+namespace {
+
+int available_threads() {
+#if defined(__linux__)
+  cpu_set_t processors;
+  if (::sched_getaffinity(0, sizeof processors, &processors) == 0) return std::max(1, CPU_COUNT(&processors));
+#endif
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+#if FACEMAP_HAS_TBB
+
+/// Lets oneTBB start more threads than there are processors, if somebody asks for so many; it would print a warning
+/// and start fewer. Of several limits the lowest holds: the new one replaces the old one, and the last one stays.
+void allow_threads(int threads) {
+  static std::mutex mutex;
+  static tbb::global_control* limit = nullptr;
+  static int allowed = available_threads();
+  const std::lock_guard lock(mutex);
+  if (threads <= allowed) return;
+  delete limit;
+  limit = new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  allowed = threads;
+}
+
+#endif
+
+}  // namespace
+
+#if FACEMAP_HAS_TBB
 
 class Executor::Pool {
  public:
-  explicit Pool(int threads) : arena_(threads) {}
+  explicit Pool(int threads) : arena_(threads) { allow_threads(threads); }
 
   void for_each(std::size_t count, const Task& task) {
-    arena_.execute([&] {
-      tbb::parallel_for(
-          tbb::blocked_range<std::size_t>(0, count, 1),
-          [&](const tbb::blocked_range<std::size_t>& range) {
-            const FloatingPointMode mode;
-            for (std::size_t i = range.begin(); i != range.end(); ++i) {
-              task(i, tbb::this_task_arena::current_thread_index());
-            }
-          },
-          tbb::simple_partitioner());
-    });
+    // Isolated, so that a task that waits for its own call does not begin another task of the outer one, whose worker
+    // would be the same.
+    arena_.execute([&] { tbb::this_task_arena::isolate([&] { run(count, task); }); });
   }
 
  private:
+  static void run(std::size_t count, const Task& task) {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, count, 1),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          const FloatingPointMode mode;
+          for (std::size_t i = range.begin(); i != range.end(); ++i) {
+            task(i, tbb::this_task_arena::current_thread_index());
+          }
+        },
+        tbb::simple_partitioner());
+  }
+
   tbb::task_arena arena_;
 };
 
-Executor::Executor(int threads) : threads_(threads > 0 ? threads : std::max(1, tbb::info::default_concurrency())) {
+#else
+
+class Executor::Pool : public ThreadPool {
+  using ThreadPool::ThreadPool;
+};
+
+#endif
+
+Executor::Executor(int threads) : threads_(threads > 0 ? threads : available_threads()) {
   if (threads_ > 1) pool_ = std::make_unique<Pool>(threads_);
 }
 
 Executor::~Executor() = default;
 
 void Executor::for_each(std::size_t count, const Task& task) const {
-  if (pool_ != nullptr && count > 1) {
-    pool_->for_each(count, task);
-    return;
-  }
+  if (count == 0) return;
+  if (pool_ != nullptr) return pool_->for_each(count, task);  // one task, too: its worker may not be 0
   const FloatingPointMode mode;
   for (std::size_t i = 0; i < count; ++i) task(i, 0);
 }
