@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,7 @@ class Renderer {
   };
 
   struct Statistics {
+    /// Wall-clock milliseconds: what the camera sees; what is made of the lights and may be kept; the rest.
     double camera_map_ms = 0, light_maps_ms = 0, shade_ms = 0;
     std::uint64_t camera_queries = 0, light_queries = 0;
     std::uint64_t upsampled_pixels = 0;
@@ -76,13 +78,19 @@ class Renderer {
     std::size_t map_bytes = 0;           ///< lists and planes of all maps, and working memory
     Strategy strategy = Strategy::Auto;  ///< the one taken: Lists or Transposed
     std::string reason;                  ///< why
+    std::string target;                  ///< instruction set of the kernels
+    int threads = 1;
   };
 
-  /// Fraction done (0..1) and the phase's name; called now and then. Return false to stop: render() then throws Error.
+  /// Fraction done (0..1) and the phase's name; called now and then, by one thread at a time, not always the caller's.
+  /// Return false to stop: render() then throws Error.
   using Progress = std::function<bool(double, const char*)>;
 
   /// The scene must outlive the renderer. Throws Error for options out of range.
   Renderer(const Scene& scene, const View& view, std::vector<Light> lights, const Options& options);
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
 
   /// The same pixels and planes every time. Pixels without a face have the background's colour.
   Image render(const Progress& progress = {});
@@ -91,17 +99,25 @@ class Renderer {
   /// Options::samples times as wide and as high. Points are the true points of the faces (Normals::Flat).
   Image look(const Progress& progress = {});
 
-  /// Another camera on the same scene and lights, whose maps are kept.
+  /// Another camera on the same scene and lights: what was made for them is kept. Throws Error as the constructor does.
   void set_view(const View& view);
 
   const Statistics& statistics() const noexcept { return statistics_; }
 
  private:
+  struct Kept;     // maps and working memory, from picture to picture
+  struct Request;  // what is to be made
+
+  Image make(const Request& request);
+  Image paint_by_lists(const Request& request);
+  void build_lists(const Request& request);
+
   const Scene* scene_;
   View view_;
   std::vector<Light> lights_;
   Options options_;
   Statistics statistics_;
+  std::unique_ptr<Kept> kept_;
 };
 
 }  // namespace facemap

@@ -11,6 +11,14 @@
 namespace facemap {
 namespace {
 
+TruePoint true_point(const Scene& scene, const SampleGrid& grid, std::uint32_t sample, std::uint32_t face) {
+  const auto columns = static_cast<std::uint32_t>(grid.columns());
+  const Triangle triangle = triangle_of(scene, face);
+  const Vector& K = grid.frame.position();
+  return {K, grid.direction(static_cast<int>(sample % columns), static_cast<int>(sample / columns)), triangle,
+          side(triangle, K)};
+}
+
 /// One light's part of the work: bits in memory of its own, so that lights can run at the same time.
 class LightTask {
  public:
@@ -51,11 +59,7 @@ class LightTask {
 
  private:
   TruePoint true_point(std::uint32_t sample, std::uint32_t face) const {
-    const auto columns = static_cast<std::uint32_t>(grid_.columns());
-    const Triangle triangle = triangle_of(scene_, face);
-    const Vector& K = grid_.frame.position();
-    return {K, grid_.direction(static_cast<int>(sample % columns), static_cast<int>(sample / columns)), triangle,
-            side(triangle, K)};
+    return facemap::true_point(scene_, grid_, sample, face);
   }
 
   bool blocks_point(std::size_t point, std::uint32_t face, int face_side) const {
@@ -137,6 +141,42 @@ LitPoints find_lit_points(const Scene& scene, const SampleGrid& grid, const Near
     if (counters != nullptr) *counters += own;
   });
   result.seen = std::move(seen);
+  return result;
+}
+
+LitPoints find_lit_points(const Scene& scene, const SampleGrid& grid, const NearestFaces& nearest, SeenPoints seen,
+                          const std::vector<PointLight>& lists, const Executor& executor, Counters* counters) {
+  constexpr std::size_t kFewestPoints = 4096;  // a task
+  LitPoints result;
+  result.seen = std::move(seen);
+  const AskedPoints& points = result.seen.points;
+  const std::size_t stride = result.seen.stride;
+  std::mutex merging;
+  const auto ask = [&](std::uint32_t sample, std::uint32_t face, std::uint8_t* mask, bool faces_lights, Counters& own) {
+    const TruePoint p = true_point(scene, grid, sample, face);
+    const SurfacePoint point{p.K, p.d, p.face, static_cast<FaceId>(face), p.s};
+    for (std::size_t l = 0; l < lists.size(); ++l) {
+      const auto bit = static_cast<std::uint8_t>(1u << (l % 8));
+      if (faces_lights && (mask[l / 8] & bit) == 0) continue;
+      const bool lit = faces_lights ? !lists[l].is_blocked(point, &own) : lists[l].get_lighten_up(point, &own);
+      mask[l / 8] = static_cast<std::uint8_t>((mask[l / 8] & ~bit) | (lit ? bit : 0u));
+    }
+  };
+  for_ranges(executor, points.size(), kFewestPoints, [&](std::size_t first, std::size_t last, int) {
+    Counters own;
+    for (std::size_t i = first; i < last; ++i) {
+      ask(points.samples[i], points.faces[i], &result.seen.masks[i * stride], true, own);
+    }
+    const std::scoped_lock lock(merging);
+    if (counters != nullptr) *counters += own;
+  });
+  result.dull_masks.resize(result.seen.dull.size() * stride);
+  Counters own;
+  for (std::size_t i = 0; i < result.seen.dull.size(); ++i) {
+    const std::uint32_t sample = result.seen.dull[i];
+    ask(sample, static_cast<std::uint32_t>(nearest.faces[sample]), &result.dull_masks[i * stride], false, own);
+  }
+  if (counters != nullptr) *counters += own;
   return result;
 }
 

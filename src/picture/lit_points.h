@@ -1,6 +1,7 @@
 #pragma once
 
 #include <facemap/counters.h>
+#include <facemap/point_light.h>
 #include <facemap/scene.h>
 
 #include <cstdint>
@@ -25,5 +26,9 @@ struct LitPoints {
 LitPoints find_lit_points(const Scene& scene, const SampleGrid& grid, const NearestFaces& nearest, SeenPoints seen,
                           const std::vector<Vector>& lights, const ClosedParts* closed, const Executor& executor,
                           std::vector<ShadowScratch>& scratch, Counters* counters = nullptr);
+
+/// The same, each point asked of each light's lists. One map a light.
+LitPoints find_lit_points(const Scene& scene, const SampleGrid& grid, const NearestFaces& nearest, SeenPoints seen,
+                          const std::vector<PointLight>& lists, const Executor& executor, Counters* counters = nullptr);
 
 }  // namespace facemap

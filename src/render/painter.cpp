@@ -9,47 +9,61 @@ constexpr int kRowsPerReport = 8;
 
 }  // namespace
 
-Painter::Painter(const Camera& camera, Shader& shader, const Renderer::Options& options, int light_count,
-                 Renderer::Statistics& statistics, Report report)
-    : camera_(camera), shader_(shader), options_(options), statistics_(statistics), report_(std::move(report)) {
+Painter::Painter(const Camera& camera, std::span<const PointLight> lights, const Renderer::Options& options,
+                 const Executor& executor, Report report)
+    : camera_(camera), options_(options), executor_(executor), report_(std::move(report)) {
   image_.width = options.width;
   image_.height = options.height;
-  image_.light_count = light_count;
+  image_.light_count = static_cast<int>(lights.size());
   const std::size_t pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
   const bool edges = options.sampling == Renderer::Sampling::Edges;
   image_.pixels.resize(pixels);
   if (options.want_ids || edges) image_.ids.resize(pixels);
   if (options.want_depths) image_.depths.resize(pixels);
   if (options.want_lights || edges) image_.lights.resize(pixels * static_cast<std::size_t>(image_.light_bytes()));
+  for (int i = 0; i < executor.threads(); ++i) workers_.push_back(std::make_unique<Worker>(camera, lights, options));
 }
 
-Image Painter::paint() {
+Image Painter::paint(Renderer::Statistics& statistics) {
   if (options_.sampling == Renderer::Sampling::Edges) {
-    paint_rows(1, 0.5);
-    upsample_edges();
+    for_each_row(0, 0.5, [&](int y, Worker& worker) { paint_row(y, 1, worker); });
+    for_each_row(0.5, 0.5, [&](int y, Worker& worker) { upsample_edges(y, worker); });
     if (!options_.want_ids) image_.ids = {};
     if (!options_.want_lights) image_.lights = {};
   } else {
-    paint_rows(options_.samples, 1);
+    for_each_row(0, 1, [&](int y, Worker& worker) { paint_row(y, options_.samples, worker); });
+  }
+  for (const std::unique_ptr<Worker>& worker : workers_) {
+    statistics.camera_queries += worker->statistics.camera_queries;
+    statistics.light_queries += worker->statistics.light_queries;
+    statistics.upsampled_pixels += worker->statistics.upsampled_pixels;
+    statistics.camera_tests += worker->statistics.camera_tests;
+    statistics.light_tests += worker->statistics.light_tests;
   }
   return std::move(image_);
 }
 
+void Painter::for_each_row(double done_before, double share,
+                           const std::function<void(int y, Worker& worker)>& paint_row) {
+  rows_done_ = 0;
+  executor_.for_each(static_cast<std::size_t>(image_.height), [&](std::size_t y, int worker) {
+    paint_row(static_cast<int>(y), *workers_[static_cast<std::size_t>(worker)]);
+    const std::scoped_lock lock(reporting_);
+    if (rows_done_++ % kRowsPerReport == 0) report_(done_before + share * rows_done_ / image_.height);
+  });
+}
+
 // Planes always hold the ray through the pixel's centre.
-void Painter::paint_rows(int samples, double share) {
+void Painter::paint_row(int y, int samples, Worker& worker) {
   const bool centre_is_sampled = samples == 1;
   const bool wants_planes = !image_.ids.empty() || !image_.depths.empty() || !image_.lights.empty();
-  Sample sample;
-  for (int y = 0; y < image_.height; ++y) {
-    if (y % kRowsPerReport == 0) report_(share * y / image_.height);
-    for (int x = 0; x < image_.width; ++x) {
-      const std::size_t pixel = index(x, y);
-      if (!centre_is_sampled) image_.pixels[pixel] = mean_of_grid(x, y, samples);
-      if (!centre_is_sampled && !wants_planes) continue;
-      shader_.shade(MapPoint(x + 0.5, y + 0.5), sample);
-      if (centre_is_sampled) image_.pixels[pixel] = sample.color;
-      store_planes(pixel, sample);
-    }
+  for (int x = 0; x < image_.width; ++x) {
+    const std::size_t pixel = index(x, y);
+    if (!centre_is_sampled) image_.pixels[pixel] = mean_of_grid(x, y, samples, worker);
+    if (!centre_is_sampled && !wants_planes) continue;
+    worker.shader.shade(MapPoint(x + 0.5, y + 0.5), worker.sample);
+    if (centre_is_sampled) image_.pixels[pixel] = worker.sample.color;
+    store_planes(pixel, worker.sample);
   }
 }
 
@@ -62,14 +76,14 @@ void Painter::store_planes(std::size_t pixel, const Sample& sample) {
   }
 }
 
-Color Painter::mean_of_grid(int x, int y, int samples) {
+Color Painter::mean_of_grid(int x, int y, int samples, Worker& worker) {
   double r = 0, g = 0, b = 0;
   for (int j = 0; j < samples; ++j) {
     for (int i = 0; i < samples; ++i) {
-      shader_.shade(MapPoint(x + (i + 0.5) / samples, y + (j + 0.5) / samples), grid_sample_);
-      r += grid_sample_.color.r;
-      g += grid_sample_.color.g;
-      b += grid_sample_.color.b;
+      worker.shader.shade(MapPoint(x + (i + 0.5) / samples, y + (j + 0.5) / samples), worker.grid_sample);
+      r += worker.grid_sample.color.r;
+      g += worker.grid_sample.color.g;
+      b += worker.grid_sample.color.b;
     }
   }
   const double count = samples * samples;
@@ -77,14 +91,11 @@ Color Painter::mean_of_grid(int x, int y, int samples) {
 }
 
 // Wang 2022, sec. 2.3, Fig. 3: only the pixels that may hold an edge are divided.
-void Painter::upsample_edges() {
-  for (int y = 0; y < image_.height; ++y) {
-    if (y % kRowsPerReport == 0) report_(0.5 + 0.5 * y / image_.height);
-    for (int x = 0; x < image_.width; ++x) {
-      if (!may_hold_edge(x, y)) continue;
-      ++statistics_.upsampled_pixels;
-      image_.pixels[index(x, y)] = mean_of_grid(x, y, options_.samples);
-    }
+void Painter::upsample_edges(int y, Worker& worker) {
+  for (int x = 0; x < image_.width; ++x) {
+    if (!may_hold_edge(x, y)) continue;
+    ++worker.statistics.upsampled_pixels;
+    image_.pixels[index(x, y)] = mean_of_grid(x, y, options_.samples, worker);
   }
 }
 

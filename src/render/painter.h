@@ -4,28 +4,44 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
 
+#include "parallel/executor.h"
 #include "render/shade.h"
 
 namespace facemap {
 
-/// Fills an image from a shader: the loop over pixels, and which of them get more than one sample.
+/// Fills an image from maps of faces, sample by sample: the loop over pixels, and which of them get more than one
+/// sample. Rows are tasks; each worker has a shader of its own.
 class Painter {
  public:
   /// `report` is called now and then with the fraction done; it may throw.
   using Report = std::function<void(double)>;
 
-  Painter(const Camera& camera, Shader& shader, const Renderer::Options& options, int light_count,
-          Renderer::Statistics& statistics, Report report);
+  Painter(const Camera& camera, std::span<const PointLight> lights, const Renderer::Options& options,
+          const Executor& executor, Report report);
 
-  /// Call once.
-  Image paint();
+  /// Call once. Adds queries, tests and upsampled pixels to `statistics`.
+  Image paint(Renderer::Statistics& statistics);
 
  private:
-  void paint_rows(int samples, double share);
-  void upsample_edges();
+  struct Worker {
+    Renderer::Statistics statistics;
+    Shader shader;
+    Sample sample, grid_sample;
+
+    Worker(const Camera& camera, std::span<const PointLight> lights, const Renderer::Options& options)
+        : shader(camera, lights, options, statistics) {}
+  };
+
+  void for_each_row(double done_before, double share, const std::function<void(int y, Worker&)>& paint_row);
+  void paint_row(int y, int samples, Worker& worker);
+  void upsample_edges(int y, Worker& worker);
   void store_planes(std::size_t pixel, const Sample& sample);
-  Color mean_of_grid(int x, int y, int samples);
+  Color mean_of_grid(int x, int y, int samples, Worker& worker);
   bool may_hold_edge(int x, int y) const;
   bool same_lights(std::size_t i, std::size_t j) const;
 
@@ -34,11 +50,12 @@ class Painter {
   }
 
   const Camera& camera_;
-  Shader& shader_;
   const Renderer::Options& options_;
-  Renderer::Statistics& statistics_;
+  const Executor& executor_;
   Report report_;
-  Sample grid_sample_;
+  std::mutex reporting_;
+  int rows_done_ = 0;
+  std::vector<std::unique_ptr<Worker>> workers_;
   Image image_;
 };
 

@@ -1,25 +1,22 @@
 #include <facemap/error.h>
 #include <facemap/renderer.h>
 
-#include <chrono>
+#include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <mutex>
+#include <optional>
 
+#include "parallel/executor.h"
+#include "picture/shadows.h"
+#include "render/cost_model.h"
 #include "render/painter.h"
-#include "render/shade.h"
+#include "render/stopwatch.h"
 #include "simd/floating_point_mode.h"
+#include "simd/target.h"
 
 namespace facemap {
 namespace {
-
-class Stopwatch {
- public:
-  double milliseconds() const {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 bool is_valid(const Color& c) {
   return c.r >= 0 && c.g >= 0 && c.b >= 0 && std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
@@ -41,74 +38,122 @@ void validate(const Renderer::Options& options, const std::vector<Light>& lights
 
 }  // namespace
 
+struct Renderer::Kept {
+  explicit Kept(int threads) : executor(threads) {}
+
+  Executor executor;
+  std::mutex reporting;
+  std::vector<PointLight> lists;  // empty until built
+  double spent_in_vain = 0;       // see PictureWork
+};
+
 Renderer::Renderer(const Scene& scene, const View& view, std::vector<Light> lights, const Options& options)
     : scene_(&scene), view_(view), lights_(std::move(lights)), options_(options) {
   const FloatingPointMode mode;
   validate(options_, lights_);
-  Projection(view.projection, view.field_angle, options.width, options.height);
-  SpaceVector::looking_at(view.position, view.look_at, view.up);
+  set_view(view);
+  kept_ = std::make_unique<Kept>(options.threads);
 }
 
-Image Renderer::render(const Progress& progress) {
-  const FloatingPointMode mode;
-  statistics_ = Statistics();
-  const auto report = [&](double fraction, const char* phase) {
-    if (progress && !progress(fraction, phase)) throw Error("stopped");
-  };
-
-  report(0, "camera map");
-  const Stopwatch camera_time;
-  Camera::Options camera_options;
-  camera_options.projection = view_.projection;
-  camera_options.field_angle = view_.field_angle;
-  camera_options.width = options_.width;
-  camera_options.height = options_.height;
-  camera_options.builder = options_.builder;
-  const Camera camera(*scene_, SpaceVector::looking_at(view_.position, view_.look_at, view_.up), camera_options);
-  statistics_.camera_map_ms = camera_time.milliseconds();
-  statistics_.map_bytes = camera.memory_bytes();
-
-  const Stopwatch light_time;
-  std::vector<PointLight> lights;
-  lights.reserve(lights_.size());
-  for (const Light& light : lights_) {
-    report(static_cast<double>(lights.size()) / static_cast<double>(lights_.size()), "light maps");
-    PointLight::Options light_options;
-    light_options.builder = options_.builder;
-    lights.emplace_back(*scene_, light.position, light_options);
-    lights.back().color = light.color;
-    lights.back().intensity = light.intensity;
-    statistics_.map_bytes += lights.back().memory_bytes();
-  }
-  statistics_.light_maps_ms = light_time.milliseconds();
-
-  const Stopwatch shade_time;
-  Shader shader(camera, lights, options_, statistics_);
-  Image image = Painter(camera, shader, options_, static_cast<int>(lights.size()), statistics_, [&](double fraction) {
-                  report(fraction, "shade");
-                }).paint();
-  statistics_.shade_ms = shade_time.milliseconds();
-  return image;
-}
-
-Image Renderer::look(const Progress& progress) {
-  const Options options = options_;
-  options_.sampling = Sampling::Grid;
-  options_.samples = 1;
-  options_.normals = Normals::Flat;
-  options_.want_ids = options_.want_lights = true;
-  options_.want_depths = false;
-  Image image = render(progress);
-  options_ = options;
-  image.pixels = {};
-  return image;
-}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 void Renderer::set_view(const View& view) {
   const FloatingPointMode mode;
   Projection(view.projection, view.field_angle, options_.width, options_.height);
   SpaceVector::looking_at(view.position, view.look_at, view.up);
   view_ = view;
+}
+
+struct Renderer::Request {
+  Options options;
+  bool wants_colours;
+  std::function<void(double, const char*)> report;  // throws to stop
+};
+
+Image Renderer::render(const Progress& progress) {
+  return make({options_, true, [&](double fraction, const char* phase) {
+                 if (progress && !progress(fraction, phase)) throw Error("stopped");
+               }});
+}
+
+Image Renderer::look(const Progress& progress) {
+  Options options = options_;
+  options.want_ids = options.want_lights = true;
+  options.sampling = Sampling::Grid;
+  options.builder = Builder::Cover;
+  options.normals = Normals::Flat;
+  return make({options, false, [&](double fraction, const char* phase) {
+                 if (progress && !progress(fraction, phase)) throw Error("stopped");
+               }});
+}
+
+Image Renderer::make(const Request& request) {
+  const FloatingPointMode mode;
+  const Options& options = request.options;
+  PictureWork work;
+  work.faces = scene_->kept_faces().size();
+  work.samples = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height) *
+                 static_cast<std::size_t>(options.samples) * static_cast<std::size_t>(options.samples);
+  work.lights = lights_.size();
+  work.has_lists = kept_->lists.size() == lights_.size();
+  work.spent_in_vain = kept_->spent_in_vain;
+  work.map_memory = options.map_memory;
+  const StrategyChoice choice = choose_strategy(options, work);
+
+  statistics_ = Statistics();
+  statistics_.strategy = choice.strategy;
+  statistics_.reason = choice.reason;
+  statistics_.target = simd::name_of(simd::active_target());
+  statistics_.threads = kept_->executor.threads();
+  build_lists(request);
+
+  Image image = paint_by_lists(request);
+  return image;
+}
+
+void Renderer::build_lists(const Request& request) {
+  const Stopwatch time;
+  std::vector<PointLight>& lists = kept_->lists;
+  if (lists.size() != lights_.size()) {
+    std::vector<std::optional<PointLight>> made(lights_.size());
+    std::atomic<std::size_t> done = 0;
+    kept_->executor.for_each(made.size(), [&](std::size_t i, int) {
+      PointLight::Options options;
+      options.builder = request.options.builder;
+      made[i].emplace(*scene_, lights_[i].position, options);
+      made[i]->color = lights_[i].color;
+      made[i]->intensity = lights_[i].intensity;
+      const std::scoped_lock lock(kept_->reporting);
+      request.report(static_cast<double>(++done) / static_cast<double>(made.size()), "light maps");
+    });
+    lists.clear();
+    for (std::optional<PointLight>& light : made) lists.push_back(std::move(*light));
+  }
+  for (const PointLight& light : lists) statistics_.map_bytes += light.memory_bytes();
+  statistics_.light_maps_ms += time.milliseconds();
+}
+
+Image Renderer::paint_by_lists(const Request& request) {
+  request.report(0, "camera map");
+  const Stopwatch camera_time;
+  Camera::Options camera_options;
+  camera_options.projection = view_.projection;
+  camera_options.field_angle = view_.field_angle;
+  camera_options.width = request.options.width;
+  camera_options.height = request.options.height;
+  camera_options.builder = request.options.builder;
+  const Camera camera(*scene_, SpaceVector::looking_at(view_.position, view_.look_at, view_.up), camera_options);
+  statistics_.camera_map_ms = camera_time.milliseconds();
+  statistics_.map_bytes += camera.memory_bytes();
+
+  const Stopwatch shade_time;
+  Painter painter(camera, kept_->lists, request.options, kept_->executor,
+                  [&](double fraction) { request.report(fraction, "shade"); });
+  Image image = painter.paint(statistics_);
+  statistics_.shade_ms = shade_time.milliseconds();
+  return image;
 }
 
 }  // namespace facemap

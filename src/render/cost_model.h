@@ -1,0 +1,35 @@
+#pragma once
+
+#include <facemap/renderer.h>
+
+#include <cstddef>
+#include <string>
+
+namespace facemap {
+
+/// What a picture asks, and what is there already.
+struct PictureWork {
+  std::size_t faces = 0;    ///< kept faces of the scene
+  std::size_t samples = 0;  ///< rays of the picture
+  std::size_t lights = 0;
+  bool has_lists = false;      ///< the lights' lists are built
+  double spent_in_vain = 0;    ///< milliseconds that earlier pictures would have saved had the lists been there
+  std::size_t map_memory = 0;  ///< Options::map_memory
+};
+
+/// Estimated milliseconds of one thread, by each strategy.
+struct PictureCost {
+  double transposed = 0;
+  double lists = 0;        ///< with the lights' lists built
+  double build_lists = 0;  ///< of all lights
+};
+PictureCost estimate_cost(const PictureWork& work);
+
+/// The strategy to take, and why in a few words.
+struct StrategyChoice {
+  Renderer::Strategy strategy;
+  std::string reason;
+};
+StrategyChoice choose_strategy(const Renderer::Options& options, const PictureWork& work);
+
+}  // namespace facemap

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <facemap/renderer.h>
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "parallel/executor.h"
+#include "picture/shadows.h"
+#include "scene/closed_parts.h"
+
+namespace facemap {
+
+/// What the transposed strategy keeps from picture to picture of one scene.
+struct TransposedState {
+  std::unique_ptr<ClosedParts> closed;  ///< made when first needed
+  std::vector<ShadowScratch> scratch;   ///< one a worker
+};
+
+/// All samples of a picture at once: the camera's faces by the transposed way, the lights' by either. Gives the planes
+/// and colours that Painter gives.
+class WholePicture {
+ public:
+  /// Called now and then with the fraction done and the phase's name; it may throw.
+  using Report = std::function<void(double, const char*)>;
+
+  /// `lists`: one map a light to ask, or null to take the transposed way for shadows too.
+
+  WholePicture(const Scene& scene, const View& view, const std::vector<Light>& lights, const Renderer::Options& options,
+               const Executor& executor, TransposedState& state, Renderer::Statistics& statistics, Report report);
+
+  /// As Renderer::render.
+  Image paint();
+
+  /// As Renderer::look.
+  Image look();
+
+ private:
+  struct Planes;
+  Planes find_planes(int per_side);
+
+  const Scene& scene_;
+  const View& view_;
+  const std::vector<Light>& lights_;
+  const Renderer::Options& options_;
+  const Executor& executor_;
+  TransposedState& state_;
+  const std::vector<PointLight>* lists_;
+  Renderer::Statistics& statistics_;
+  Report report_;
+};
+
+}  // namespace facemap
