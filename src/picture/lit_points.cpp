@@ -11,6 +11,8 @@
 namespace facemap {
 namespace {
 
+constexpr std::size_t kFewestPoints = 4096;  // a task of asking lists
+
 TruePoint true_point(const Scene& scene, const SampleGrid& grid, std::uint32_t sample, std::uint32_t face) {
   const auto columns = static_cast<std::uint32_t>(grid.columns());
   const Triangle triangle = triangle_of(scene, face);
@@ -146,7 +148,6 @@ LitPoints find_lit_points(const Scene& scene, const SampleGrid& grid, const Near
 
 LitPoints find_lit_points(const Scene& scene, const SampleGrid& grid, const NearestFaces& nearest, SeenPoints seen,
                           const std::vector<PointLight>& lists, const Executor& executor, Counters* counters) {
-  constexpr std::size_t kFewestPoints = 4096;  // a task
   LitPoints result;
   result.seen = std::move(seen);
   const AskedPoints& points = result.seen.points;
@@ -178,6 +179,42 @@ LitPoints find_lit_points(const Scene& scene, const SampleGrid& grid, const Near
   }
   if (counters != nullptr) *counters += own;
   return result;
+}
+
+void clear_blocked_positions(const Scene& scene, const AskedPoints& points, const std::vector<Vector>& positions,
+                             const std::vector<Vector>& lights, std::vector<std::uint8_t>& masks, std::size_t stride,
+                             const Executor& executor, std::vector<ShadowScratch>& scratch, Counters* counters) {
+  if (positions.empty()) return;
+  std::mutex merging;
+  executor.for_each(lights.size(), [&](std::size_t l, int worker) {
+    Counters own;
+    std::vector<std::uint8_t> lit(positions.size(), 1);
+    const auto blocks_position = [&](std::size_t i, std::uint32_t face, int face_side) {
+      return blocks(triangle_of(scene, face), face_side, lights[l], GivenPoint{positions[i]}, &own);
+    };
+    clear_blocked(scene, lights[l], points, {lit.data(), 1, 0}, nullptr, blocks_position,
+                  scratch[static_cast<std::size_t>(worker)], &own);
+    const std::scoped_lock lock(merging);
+    set_bits(masks, stride, l, lit);
+    if (counters != nullptr) *counters += own;
+  });
+}
+
+void clear_blocked_positions(const std::vector<Vector>& positions, const std::vector<PointLight>& lists,
+                             std::vector<std::uint8_t>& masks, std::size_t stride, const Executor& executor,
+                             Counters* counters) {
+  std::mutex merging;
+  for_ranges(executor, positions.size(), kFewestPoints, [&](std::size_t first, std::size_t last, int) {
+    Counters own;
+    for (std::size_t i = first; i < last; ++i) {
+      for (std::size_t l = 0; l < lists.size(); ++l) {
+        std::uint8_t& mask = masks[i * stride + l / 8];
+        if (!lists[l].get_lighten_up(positions[i], &own)) mask = static_cast<std::uint8_t>(mask & ~(1u << (l % 8)));
+      }
+    }
+    const std::scoped_lock lock(merging);
+    if (counters != nullptr) *counters += own;
+  });
 }
 
 }  // namespace facemap

@@ -31,4 +31,14 @@ LitPoints find_lit_points(const Scene& scene, const SampleGrid& grid, const Near
 LitPoints find_lit_points(const Scene& scene, const SampleGrid& grid, const NearestFaces& nearest, SeenPoints seen,
                           const std::vector<PointLight>& lists, const Executor& executor, Counters* counters = nullptr);
 
+/// Float32 points that lie on no face, all of which ask every light: clears bit l of masks[i * stride + l / 8] where
+/// light l does not reach positions[i]. `points` holds the same positions. Exact.
+void clear_blocked_positions(const Scene& scene, const AskedPoints& points, const std::vector<Vector>& positions,
+                             const std::vector<Vector>& lights, std::vector<std::uint8_t>& masks, std::size_t stride,
+                             const Executor& executor, std::vector<ShadowScratch>& scratch,
+                             Counters* counters = nullptr);
+void clear_blocked_positions(const std::vector<Vector>& positions, const std::vector<PointLight>& lists,
+                             std::vector<std::uint8_t>& masks, std::size_t stride, const Executor& executor,
+                             Counters* counters = nullptr);
+
 }  // namespace facemap

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "parallel/executor.h"
+#include "picture/lit_points.h"
 #include "picture/shadows.h"
 #include "scene/closed_parts.h"
 
@@ -37,8 +38,9 @@ class WholePicture {
   Image look();
 
  private:
-  struct Planes;
-  Planes find_planes(int per_side);
+  struct Seen;
+  Seen see(int per_side);
+  LitPoints ask_lights(const SampleGrid& grid, const NearestFaces& nearest, SeenPoints seen);
 
   const Scene& scene_;
   const View& view_;
