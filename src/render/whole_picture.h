@@ -27,9 +27,9 @@ class WholePicture {
   using Report = std::function<void(double, const char*)>;
 
   /// `lists`: one map a light to ask, or null to take the transposed way for shadows too.
-
   WholePicture(const Scene& scene, const View& view, const std::vector<Light>& lights, const Renderer::Options& options,
-               const Executor& executor, TransposedState& state, Renderer::Statistics& statistics, Report report);
+               const Executor& executor, TransposedState& state, const std::vector<PointLight>* lists,
+               Renderer::Statistics& statistics, Report report);
 
   /// As Renderer::render.
   Image paint();
