@@ -3,6 +3,7 @@
 #include <facemap/error.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <climits>
 #include <csignal>
 #include <cstring>
@@ -10,20 +11,40 @@
 namespace facemap::program {
 namespace {
 
-// A signal handler can reach nothing else than globals of these types.
-volatile std::sig_atomic_t is_writing = 0;
-volatile std::sig_atomic_t pending_signal = 0;
-volatile std::sig_atomic_t has_temporary = 0;
+// A signal handler can reach nothing else than globals, and of these only lock-free ones. It runs on any thread, so
+// it sets pending_signal before it reads is_writing, and a writer does it the other way round: one of them sees the
+// other.
+std::atomic<int> is_writing = 0;
+std::atomic<int> pending_signal = 0;
+std::atomic<int> has_temporary = 0;
+static_assert(std::atomic<int>::is_always_lock_free);
 char temporary[PATH_MAX];
 
 void on_signal(int signal) {
-  if (is_writing && !pending_signal) {
-    pending_signal = signal;
-    return;
-  }
+  const bool is_first = pending_signal.exchange(signal) == 0;
+  if (is_writing && is_first) return;
   if (has_temporary) ::unlink(temporary);
   ::_exit(128 + signal);
 }
+
+void end_if_signalled() {
+  if (const int signal = pending_signal) ::_exit(128 + signal);
+}
+
+/// Holds signals off.
+class Writing {
+ public:
+  Writing() {
+    is_writing = 1;
+    end_if_signalled();
+  }
+  ~Writing() {
+    is_writing = 0;
+    end_if_signalled();
+  }
+  Writing(const Writing&) = delete;
+  Writing& operator=(const Writing&) = delete;
+};
 
 }  // namespace
 
@@ -41,15 +62,8 @@ void catch_signals() {
 }
 
 void write_whole(const std::function<void()>& write) {
-  is_writing = 1;
-  try {
-    write();
-  } catch (...) {
-    is_writing = 0;
-    throw;
-  }
-  is_writing = 0;
-  if (pending_signal) throw Interrupted{pending_signal};
+  const Writing writing;
+  write();
 }
 
 RemovedOnSignal::RemovedOnSignal(const std::filesystem::path& path) {

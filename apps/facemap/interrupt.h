@@ -5,17 +5,12 @@
 
 namespace facemap::program {
 
-/// SIGINT, SIGTERM and SIGHUP from here on: nothing is written before the end, so until then they end the
-/// program at once, with exit code 128 + signal. A limit on file sizes becomes an ordinary error.
+/// SIGINT, SIGTERM and SIGHUP from here on: they end the program at once, with exit code 128 + signal, or after the
+/// write_whole that is under way. A limit on file sizes becomes an ordinary error.
 void catch_signals();
 
-/// Thrown by write_whole when a signal came meanwhile.
-struct Interrupted {
-  int signal;
-};
-
-/// Runs `write`, which puts files in place whole or not at all; a signal waits until it is done. A second
-/// signal does not wait.
+/// Runs `write`, which puts files in place whole or not at all; a signal that comes meanwhile waits until it is done,
+/// and then ends the program. A second signal does not wait. For one thread at a time.
 void write_whole(const std::function<void()>& write);
 
 /// While it lives, a signal removes this file before the program ends.

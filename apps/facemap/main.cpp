@@ -1,3 +1,6 @@
+#include <facemap/error.h>
+#include <facemap/instruction_set.h>
+
 #include <exception>
 #include <iostream>
 #include <new>
@@ -19,11 +22,21 @@ int complain(const char* reason, int exit_code) {
   return exit_code;
 }
 
+/// What the environment asks for is part of the command line.
+void check_environment() {
+  try {
+    instruction_set();
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+}
+
 int run(int argc, const char* const* argv) {
   const std::vector<Command> commands = all_commands();
   std::string answer;
   const Command* command = parse_command_line(commands, argc, argv, answer);
   if (command) {
+    check_environment();
     command->run();
   } else {
     std::cout << answer;
@@ -40,8 +53,6 @@ int main(int argc, char** argv) {
   try {
     catch_signals();
     return run(argc, argv);
-  } catch (const Interrupted& interrupted) {
-    return 128 + interrupted.signal;
   } catch (const UsageError& error) {
     return complain(error.what(), kWrongUsage);
   } catch (const std::bad_alloc&) {

@@ -89,6 +89,22 @@ int parse_whole_number(const std::string& text, int least, int most) {
   return number;
 }
 
+std::size_t parse_memory(const std::string& text) {
+  constexpr std::string_view kUnits = "KMGT";
+  constexpr std::size_t kMost = std::size_t{1} << 50;
+  std::string_view digits = text;
+  std::size_t unit = 1;
+  if (const std::size_t i = digits.empty() ? kUnits.npos : kUnits.find(digits.back()); i != kUnits.npos) {
+    unit <<= 10 * (i + 1);
+    digits.remove_suffix(1);
+  }
+  std::size_t count = 0;
+  if (digits.starts_with('+') || !read(digits, count) || count < 1 || count > kMost / unit) {
+    refuse(text, "an amount of memory such as 512M or 2G");
+  }
+  return count * unit;
+}
+
 double parse_degrees(const std::string& text) {
   double degrees = 0;
   if (!read(text, degrees) || !(degrees > 0) || !(degrees <= 360))

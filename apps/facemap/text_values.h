@@ -4,6 +4,7 @@
 #include <facemap/renderer.h>
 #include <facemap/vector.h>
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace facemap::program {
 
 float parse_number(const std::string& text);
 int parse_whole_number(const std::string& text, int least, int most);
+
+/// Bytes: "1048576", "512M", "2G" (K, M, G and T are powers of 1024).
+std::size_t parse_memory(const std::string& text);
 
 /// Degrees, as radians.
 double parse_degrees(const std::string& text);

@@ -6,6 +6,7 @@
 #include <facemap/face.h>
 #include <facemap/face_map.h>
 #include <facemap/image.h>
+#include <facemap/instruction_set.h>
 #include <facemap/mesh.h>
 #include <facemap/obj.h>
 #include <facemap/point_light.h>
@@ -15,4 +16,5 @@
 #include <facemap/scene.h>
 #include <facemap/space_vector.h>
 #include <facemap/surface_point.h>
+#include <facemap/turntable.h>
 #include <facemap/vector.h>

@@ -102,15 +102,25 @@ TEST_F(Program, WritesAPictureToStandardOutput) {
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.out, read_file("a.png"));
   expect_error(run(std::string("render cube.obj -o - --stats json") + kView), 2,
-               "-o - and --stats json would both write to standard output");
+               "-o - and --stats would both write to standard output");
   const Outcome full = run_shell(std::string("\"$facemap\" render cube.obj -o - >/dev/full") + kView);
   expect_error(full, 1, "standard output: cannot write: No space left on device");
+}
+
+TEST_F(Program, PrintsStatisticsAsText) {
+  const Outcome outcome = run(std::string("render cube.obj -o a.png --stats text --threads 2") + kView);
+  EXPECT_EQ(outcome.exit_code, 0);
+  for (const char* part : {"\nfaces                     12\n", "\nthreads                   2\n",
+                           "\nmilliseconds.load         ", "\nlight_tests.by_exact      ", "\nstrategy "}) {
+    EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " in\n" << outcome.out;
+  }
 }
 
 TEST_F(Program, PrintsStatisticsAsJson) {
   const Outcome outcome = run(std::string("render cube.obj -o a.png --stats json") + kView);
   EXPECT_EQ(outcome.exit_code, 0);
-  for (const char* part : {"\"faces\": 12,", "\"lights\": 1,", "\"milliseconds\": {\"load\": ", "\"camera_map\": ",
+  for (const char* part : {"\"faces\": 12,", "\"lights\": 1,", "\"frames\": 1,", "\"threads\": ", "\"target\": \"",
+                           "\"strategy\": \"", "\"reason\": \"", "\"milliseconds\": {\"load\": ", "\"camera_map\": ",
                            "\"light_maps\": ", "\"shade\": ", "\"write\": ", "\"peak_memory_bytes\": ",
                            "\"map_bytes\": ", "\"by_float\": ", "\"by_double\": ", "\"by_exact\": "}) {
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " in\n" << outcome.out;

@@ -91,7 +91,16 @@ TEST_F(Program, RefusesValuesThatMakeNoSense) {
       {"--intensity bright", "--intensity: 'bright' is not a number"},
       {"--aov id", "--aov: 'id' is not NAME=FILE"},
       {"--aov z=z.npy", "--aov: 'z' is not id, depth or lights"},
-      {"--stats xml", "--stats: 'xml' is not json"},
+      {"--threads -1", "--threads: '-1' is not a whole number of 0 to 1024"},
+      {"--threads many", "--threads: 'many' is not a whole number of 0 to 1024"},
+      {"--strategy fast", "--strategy: 'fast' is not auto, lists or transposed"},
+      {"--map-memory much", "--map-memory: 'much' is not an amount of memory such as 512M or 2G"},
+      {"--map-memory M", "--map-memory: 'M' is not an amount of memory such as 512M or 2G"},
+      {"--map-memory 0", "--map-memory: '0' is not an amount of memory such as 512M or 2G"},
+      {"--map-memory -1G", "--map-memory: '-1G' is not an amount of memory such as 512M or 2G"},
+      {"--map-memory 1.5G", "--map-memory: '1.5G' is not an amount of memory such as 512M or 2G"},
+      {"--map-memory 99999999T", "--map-memory: '99999999T' is not an amount of memory such as 512M or 2G"},
+      {"--stats xml", "--stats: 'xml' is not json or text"},
       {"--terminator-fix maybe", "--terminator-fix: 'maybe' is not off or on"},
   };
   for (const auto& [flags, message] : cases) {

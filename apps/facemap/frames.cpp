@@ -1,0 +1,85 @@
+#include "frames.h"
+
+#include <facemap/turntable.h>
+
+#include <algorithm>
+
+#include "output.h"
+#include "usage_error.h"
+
+namespace facemap::program {
+namespace {
+
+constexpr const char* kPlaceholder = "{n}";
+
+/// The value of frame `i` from a list that has none, one or one a frame.
+template <typename Value>
+std::optional<Value> value_of(const std::vector<Value>& values, std::size_t i) {
+  if (values.empty()) return std::nullopt;
+  return values.size() == 1 ? values[0] : values[i];
+}
+
+void check_number(const char* flag, std::size_t given, std::size_t cameras) {
+  if (given <= 1 || given == cameras) return;
+  std::string reason = std::string(flag) + " is given " + std::to_string(given) + " times, --camera ";
+  reason += cameras == 0 ? "not at all" : cameras == 1 ? "once" : std::to_string(cameras) + " times";
+  throw UsageError(reason + "; give it once for all cameras or once for each");
+}
+
+std::string with_number(std::string name, const std::string& number) {
+  for (std::size_t at = 0; (at = name.find(kPlaceholder, at)) != std::string::npos; at += number.size()) {
+    name.replace(at, std::string(kPlaceholder).size(), number);
+  }
+  return name;
+}
+
+}  // namespace
+
+std::vector<WantedView> WantedFrames::each() const {
+  check_number("--look-at", look_ats.size(), cameras.size());
+  check_number("--up", ups.size(), cameras.size());
+  check_number("--field-angle", field_angles.size(), cameras.size());
+  if (turntable > 0 && cameras.size() > 1)
+    throw UsageError("--turntable turns one camera; --camera is given more often");
+  std::vector<WantedView> views(std::max<std::size_t>(1, cameras.size()));
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    views[i].camera = value_of(cameras, i);
+    views[i].look_at = value_of(look_ats, i);
+    views[i].up = value_of(ups, i);
+    views[i].field_angle = value_of(field_angles, i).value_or(View().field_angle);
+    views[i].projection = projection;
+  }
+  return views;
+}
+
+std::size_t WantedFrames::count() const {
+  const std::size_t views = each().size();
+  return turntable > 0 ? static_cast<std::size_t>(turntable) : views;
+}
+
+std::vector<View> complete_views(const Scene& scene, const WantedFrames& wanted) {
+  std::vector<View> views;
+  for (const WantedView& view : wanted.each()) views.push_back(complete_view(scene, view));
+  return wanted.turntable > 0 ? turntable(views[0], wanted.turntable) : views;
+}
+
+std::vector<std::filesystem::path> frame_files(const std::filesystem::path& name, std::size_t count) {
+  if (count > 1) {
+    if (is_standard_output(name))
+      throw UsageError("-o -: standard output takes one picture, not " + std::to_string(count));
+    if (name.string().find(kPlaceholder) == std::string::npos) {
+      const std::string proposal = name.stem().string() + "_" + kPlaceholder + name.extension().string();
+      throw UsageError(name.string() + ": the names of " + std::to_string(count) + " pictures need " + kPlaceholder +
+                       ", the picture's number, such as " + proposal);
+    }
+  }
+  const std::size_t width = std::to_string(count).size();
+  std::vector<std::filesystem::path> files;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string digits = std::to_string(i);
+    files.emplace_back(with_number(name.string(), std::string(width - digits.size(), '0') + digits));
+  }
+  return files;
+}
+
+}  // namespace facemap::program

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <facemap/renderer.h>
+
+#include <filesystem>
+#include <vector>
+
+#include "frame_writer.h"
+#include "frames.h"
+#include "options.h"
+#include "text_values.h"
+
+namespace facemap::program {
+
+enum class StatsFormat { None, Json, Text };
+
+/// What facemap render is told.
+struct RenderArguments {
+  std::filesystem::path model;
+  FrameFiles files;  ///< names that may hold {n}
+  Size size;
+  WantedFrames frames;
+  std::vector<Light> lights;
+  float intensity = 1;
+  Samples samples;
+  Renderer::Options options;
+  StatsFormat stats = StatsFormat::None;
+  bool quiet = false;
+};
+
+/// The rows of the table; they set `arguments`, which must outlive them.
+std::vector<Option> render_options(RenderArguments& arguments);
+
+/// The files of each frame, known to be writable and to be different ones. Throws UsageError or Error.
+std::vector<FrameFiles> check_files(const RenderArguments& arguments);
+
+/// With size, samples and planes.
+Renderer::Options renderer_options(const RenderArguments& arguments);
+
+}  // namespace facemap::program
