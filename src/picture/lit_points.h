@@ -15,30 +15,27 @@
 
 namespace facemap {
 
-/// Which lights reach the true points that a picture sees.
-struct LitPoints {
-  SeenPoints seen;                       ///< masks: bit l set if light l reaches the point
-  std::vector<std::uint8_t> dull_masks;  ///< the same for seen.dull, seen.stride bytes each
+/// What a picture's points ask of all lights at once. Lights are tasks of the executor; each worker has a scratch.
+struct LightWork {
+  const Scene& scene;
+  const std::vector<Vector>& lights;
+  const ClosedParts* closed;  ///< or null
+  const Executor& executor;
+  std::vector<ShadowScratch>& scratch;
 };
 
-/// Asks every light about every seen point that faces it, the transposed way. Exact. `closed` may be null. `scratch`:
-/// one a worker of the executor.
-LitPoints find_lit_points(const Scene& scene, const SampleGrid& grid, const NearestFaces& nearest, SeenPoints seen,
-                          const std::vector<Vector>& lights, const ClosedParts* closed, const Executor& executor,
-                          std::vector<ShadowScratch>& scratch, Counters* counters = nullptr);
+/// Clears bit l of seen.masks where something stands between light l and the point, the transposed way. Exact.
+void clear_blocked(const LightWork& work, const SampleGrid& grid, SeenPoints& seen, Counters& counters);
 
-/// The same, each point asked of each light's lists. One map a light.
-LitPoints find_lit_points(const Scene& scene, const SampleGrid& grid, const NearestFaces& nearest, SeenPoints seen,
-                          const std::vector<PointLight>& lists, const Executor& executor, Counters* counters = nullptr);
+/// The same for float32 points that lie on no face. `points` holds the same positions, rounded.
+void clear_blocked(const LightWork& work, const AskedPoints& points, const std::vector<Vector>& positions,
+                   std::size_t stride, std::vector<std::uint8_t>& masks, Counters& counters);
 
-/// Float32 points that lie on no face, all of which ask every light: clears bit l of masks[i * stride + l / 8] where
-/// light l does not reach positions[i]. `points` holds the same positions. Exact.
-void clear_blocked_positions(const Scene& scene, const AskedPoints& points, const std::vector<Vector>& positions,
-                             const std::vector<Vector>& lights, std::vector<std::uint8_t>& masks, std::size_t stride,
-                             const Executor& executor, std::vector<ShadowScratch>& scratch,
-                             Counters* counters = nullptr);
-void clear_blocked_positions(const std::vector<Vector>& positions, const std::vector<PointLight>& lists,
-                             std::vector<std::uint8_t>& masks, std::size_t stride, const Executor& executor,
-                             Counters* counters = nullptr);
+/// The same two, each point asked by itself of each light's lists. One map a light.
+void clear_blocked_by_lists(const std::vector<PointLight>& lists, const Scene& scene, const SampleGrid& grid,
+                            const Executor& executor, SeenPoints& seen, Counters& counters);
+void clear_blocked_by_lists(const std::vector<PointLight>& lists, const std::vector<Vector>& positions,
+                            std::size_t stride, const Executor& executor, std::vector<std::uint8_t>& masks,
+                            Counters& counters);
 
 }  // namespace facemap

@@ -14,13 +14,11 @@ namespace facemap {
 
 /// The true points that a picture's rays see, ready for clear_blocked.
 struct SeenPoints {
-  AskedPoints points;                ///< all whose doubles are sharp to points.error
+  AskedPoints points;
   std::vector<std::uint8_t> masks;   ///< stride bytes a point: bit l set if camera and light l are strictly on the same
                                      ///< side of the point's face
   std::size_t stride = 0;            ///< ceil(lights / 8)
   std::vector<std::uint32_t> loose;  ///< numbers of points (not samples) that are tied or not strictly inside
-  std::vector<std::uint32_t> dull;   ///< samples that hit a face but whose point is not sharp (grazing rays): not in
-                                     ///< `points`, to be asked singly of PointLight
 };
 
 SeenPoints find_seen_points(const Scene& scene, const SampleGrid& grid, const NearestFaces& nearest,

@@ -24,15 +24,13 @@ std::vector<Vector> positions_of(const std::vector<Light>& lights) {
 }
 
 // Masks of points, put where their samples lie.
-std::vector<std::uint8_t> masks_by_sample(const LitPoints& lit, std::size_t samples) {
-  const std::size_t stride = lit.seen.stride;
+std::vector<std::uint8_t> masks_by_sample(const SeenPoints& seen, std::size_t samples) {
+  const std::size_t stride = seen.stride;
   std::vector<std::uint8_t> masks(samples * stride);
-  const auto put = [&](std::uint32_t sample, const std::uint8_t* mask) {
-    for (std::size_t k = 0; k < stride; ++k) masks[sample * stride + k] = mask[k];
-  };
-  const std::vector<std::uint32_t>& seen = lit.seen.points.samples;
-  for (std::size_t i = 0; i < seen.size(); ++i) put(seen[i], &lit.seen.masks[i * stride]);
-  for (std::size_t i = 0; i < lit.seen.dull.size(); ++i) put(lit.seen.dull[i], &lit.dull_masks[i * stride]);
+  const std::vector<std::uint32_t>& numbers = seen.points.samples;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    for (std::size_t k = 0; k < stride; ++k) masks[numbers[i] * stride + k] = seen.masks[i * stride + k];
+  }
   return masks;
 }
 
@@ -87,7 +85,7 @@ std::vector<float> depths_of(const Scene& scene, const SampleGrid& grid, const s
 struct WholePicture::Seen {
   SampleGrid grid;
   std::vector<FaceId> faces;  // one a sample
-  LitPoints lit;
+  SeenPoints points;          // masks: the lights that reach them
 };
 
 WholePicture::WholePicture(const Scene& scene, const View& view, const std::vector<Light>& lights,
@@ -114,11 +112,11 @@ WholePicture::Seen WholePicture::see(int per_side) {
   statistics_.camera_queries += grid.count();
   SeenPoints seen = find_seen_points(scene_, grid, nearest, positions_of(lights_), executor_);
   statistics_.camera_map_ms += camera_time.milliseconds();
-  LitPoints lit = ask_lights(grid, nearest, std::move(seen));
-  return {grid, std::move(nearest.faces), std::move(lit)};
+  ask_lights(grid, seen);
+  return {grid, std::move(nearest.faces), std::move(seen)};
 }
 
-LitPoints WholePicture::ask_lights(const SampleGrid& grid, const NearestFaces& nearest, SeenPoints seen) {
+void WholePicture::ask_lights(const SampleGrid& grid, SeenPoints& seen) {
   report_(0.2, "light maps");
   const Stopwatch closed_time;
   if (lists_ == nullptr && !state_.closed) state_.closed = std::make_unique<ClosedParts>(scene_, executor_);
@@ -126,24 +124,21 @@ LitPoints WholePicture::ask_lights(const SampleGrid& grid, const NearestFaces& n
 
   report_(0.3, "shade");
   const Stopwatch light_time;
-  const std::vector<Vector> lights = positions_of(lights_);
   MovedPoints moved = find_moved_points(scene_, grid, seen, lights_, options_, executor_);
   for (const std::uint8_t mask : seen.masks) statistics_.light_queries += static_cast<unsigned>(std::popcount(mask));
-  statistics_.light_queries += moved.positions.size() * lights.size();
-  LitPoints lit;
+  statistics_.light_queries += moved.positions.size() * lights_.size();
+  Counters& counters = statistics_.light_tests;
   if (lists_ != nullptr) {
-    lit = find_lit_points(scene_, grid, nearest, std::move(seen), *lists_, executor_, &statistics_.light_tests);
-    clear_blocked_positions(moved.positions, *lists_, moved.masks, lit.seen.stride, executor_,
-                            &statistics_.light_tests);
+    clear_blocked_by_lists(*lists_, scene_, grid, executor_, seen, counters);
+    clear_blocked_by_lists(*lists_, moved.positions, seen.stride, executor_, moved.masks, counters);
   } else {
-    lit = find_lit_points(scene_, grid, nearest, std::move(seen), lights, state_.closed.get(), executor_,
-                          state_.scratch, &statistics_.light_tests);
-    clear_blocked_positions(scene_, moved.points, moved.positions, lights, moved.masks, lit.seen.stride, executor_,
-                            state_.scratch, &statistics_.light_tests);
+    const std::vector<Vector> lights = positions_of(lights_);
+    const LightWork work{scene_, lights, state_.closed.get(), executor_, state_.scratch};
+    clear_blocked(work, grid, seen, counters);
+    clear_blocked(work, moved.points, moved.positions, seen.stride, moved.masks, counters);
   }
-  put_back_masks(moved, lit.seen);
+  put_back_masks(moved, seen);
   statistics_.shade_ms += light_time.milliseconds();
-  return lit;
 }
 
 Image WholePicture::look() {
@@ -152,7 +147,7 @@ Image WholePicture::look() {
   image.width = seen.grid.columns();
   image.height = seen.grid.rows();
   image.light_count = static_cast<int>(lights_.size());
-  image.lights = masks_by_sample(seen.lit, seen.grid.count());
+  image.lights = masks_by_sample(seen.points, seen.grid.count());
   image.ids = std::move(seen.faces);
   return image;
 }
@@ -165,7 +160,7 @@ Image WholePicture::paint() {
   Seen seen = see(options_.samples);
   const Stopwatch shade_time;
   std::vector<Color> colors(seen.grid.count(), options_.background);
-  shade_points(scene_, seen.grid, seen.lit.seen, lights_, options_, executor_, colors);
+  shade_points(scene_, seen.grid, seen.points, lights_, options_, executor_, colors);
   image.pixels = options_.samples == 1 ? std::move(colors) : mean_of_samples(seen.grid, colors, executor_);
   statistics_.shade_ms += shade_time.milliseconds();
 
@@ -173,7 +168,7 @@ Image WholePicture::paint() {
   if (!options_.want_ids && !options_.want_depths && !options_.want_lights) return image;
   if (options_.samples != 1) seen = see(1);
   if (options_.want_depths) image.depths = depths_of(scene_, seen.grid, seen.faces, executor_);
-  if (options_.want_lights) image.lights = masks_by_sample(seen.lit, seen.grid.count());
+  if (options_.want_lights) image.lights = masks_by_sample(seen.points, seen.grid.count());
   if (options_.want_ids) image.ids = std::move(seen.faces);
   return image;
 }

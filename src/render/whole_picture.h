@@ -40,7 +40,7 @@ class WholePicture {
  private:
   struct Seen;
   Seen see(int per_side);
-  LitPoints ask_lights(const SampleGrid& grid, const NearestFaces& nearest, SeenPoints seen);
+  void ask_lights(const SampleGrid& grid, SeenPoints& seen);
 
   const Scene& scene_;
   const View& view_;

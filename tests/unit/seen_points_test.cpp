@@ -82,7 +82,6 @@ void expect_each_hit_once(const Picture& picture, const SeenPoints& seen) {
     ++times[seen.points.samples[i]];
     EXPECT_EQ(static_cast<FaceId>(seen.points.faces[i]), picture.nearest.faces[seen.points.samples[i]]);
   }
-  for (const std::uint32_t sample : seen.dull) ++times[sample];
   for (std::size_t i = 0; i < times.size(); ++i) EXPECT_EQ(times[i], picture.nearest.faces[i] != kNoFace);
 }
 
@@ -119,7 +118,6 @@ void expect_equal(const SeenPoints& a, const SeenPoints& b) {
   EXPECT_EQ(a.masks, b.masks);
   EXPECT_EQ(a.stride, b.stride);
   EXPECT_EQ(a.loose, b.loose);
-  EXPECT_EQ(a.dull, b.dull);
 }
 
 void expect_same_for_all_targets_and_threads(const Scene& scene, const Picture& picture,

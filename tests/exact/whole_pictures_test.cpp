@@ -1,0 +1,156 @@
+// Whole pictures of hard little scenes against the referee: what each ray sees and which lights reach it, for each
+// strategy, instruction set and number of threads. FACEMAP_QUERIES sets the number of rays.
+
+#include <facemap/error.h>
+#include <facemap/renderer.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "simd/target.h"
+#include "support/oracle.h"
+#include "support/queries.h"
+#include "support/random.h"
+#include "support/scenes.h"
+
+namespace {
+
+using namespace facemap;
+using test_scenes::TestScene;
+
+constexpr int kLargestFaceCount = 60;
+
+std::uint64_t number_from_environment(const char* name, std::uint64_t otherwise) {
+  const char* text = std::getenv(name);
+  return text != nullptr ? std::strtoull(text, nullptr, 0) : otherwise;
+}
+
+struct Tally {
+  std::uint64_t pictures = 0, rays = 0, hits = 0, shadow_questions = 0, differences = 0;
+};
+
+class Session {
+ public:
+  explicit Session(std::uint64_t seed) : random_(seed) { std::printf("seed 0x%llx\n", (unsigned long long)seed); }
+  ~Session() { simd::set_active_target(simd::supported_targets().back()); }
+
+  const Tally& ask(std::uint64_t rays) {
+    while (tally_.rays < rays && tally_.differences < 20) ask_picture();
+    std::printf("%llu pictures, %llu rays, %llu hits, %llu shadow questions, differences: %llu\n",
+                (unsigned long long)tally_.pictures, (unsigned long long)tally_.rays, (unsigned long long)tally_.hits,
+                (unsigned long long)tally_.shadow_questions, (unsigned long long)tally_.differences);
+    return tally_;
+  }
+
+ private:
+  View make_view(const TestScene& test) {
+    View view;
+    view.position = test_scenes::make_origin(test, random_);
+    view.look_at = test.centre;
+    // Aimed at a vertex or an edge, whose direction then lies in the midst of the picture.
+    const Mesh& mesh = test.mesh;
+    const Vector a = mesh.vertex(random_.below(static_cast<int>(mesh.face_count())), random_.below(3));
+    const Vector b = mesh.vertex(random_.below(static_cast<int>(mesh.face_count())), random_.below(3));
+    if (random_.chance(0.5)) view.look_at = a;
+    if (random_.chance(0.2)) view.look_at = Vector((DVector(a) + DVector(b)) * 0.5);
+    view.up = Vector(random_.direction());
+    const bool is_plane = random_.chance(0.5);
+    view.projection = is_plane ? ProjectionKind::Plane : ProjectionKind::Surface;
+    view.field_angle =
+        random_.chance(0.3) ? std::exp2(random_.between(-20.0, 0.0)) : random_.between(0.1, is_plane ? 3.0 : 2 * M_PI);
+    return view;
+  }
+
+  void ask_picture() {
+    const TestScene test = test_scenes::make_any_scene(random_, kLargestFaceCount);
+    const Scene scene(test.mesh);
+    const View view = make_view(test);
+    std::vector<Light> lights(static_cast<std::size_t>(random_.between(0, 10)));
+    for (Light& light : lights) light.position = test_scenes::make_origin(test, random_);
+    Renderer::Options options;
+    options.width = random_.between(1, 40);
+    options.height = random_.between(1, 40);
+    options.samples = random_.chance(0.2) ? random_.between(2, 3) : 1;
+    options.threads = random_.between(1, 3);
+    options.strategy = random_.chance(0.8) ? Renderer::Strategy::Transposed : Renderer::Strategy::Lists;
+    const std::vector<simd::Target> targets = simd::supported_targets();
+    simd::set_active_target(targets[static_cast<std::size_t>(random_.below(static_cast<int>(targets.size())))]);
+    try {
+      Renderer renderer(scene, view, lights, options);
+      compare(test, scene, view, lights, options, renderer.look());
+      ++tally_.pictures;
+    } catch (const Error&) {  // no view looks at its own position, or along its up direction
+      EXPECT_ANY_THROW(SpaceVector::looking_at(view.position, view.look_at, view.up));
+    }
+  }
+
+  void compare(const TestScene& test, const Scene& scene, const View& view, const std::vector<Light>& lights,
+               const Renderer::Options& options, const Image& image) {
+    const oracle::Oracle oracle(scene.mesh());
+    const oracle::View camera_truth = oracle.from(view.position);
+    std::vector<oracle::View> light_truths;
+    for (const Light& light : lights) light_truths.push_back(oracle.from(light.position));
+    const SpaceVector frame = SpaceVector::looking_at(view.position, view.look_at, view.up);
+    const Projection projection(view.projection, view.field_angle, options.width, options.height);
+    ASSERT_EQ(image.width, options.width * options.samples);
+    ASSERT_EQ(image.height, options.height * options.samples);
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        const int n = options.samples;
+        const MapPoint point(x / n + (x % n + 0.5) / n, y / n + (y % n + 0.5) / n);
+        Vector d(0);
+        if (projection.has_direction(point)) d = Vector(frame.world_from_local(projection.local_from_map(point)));
+        const std::size_t i = static_cast<std::size_t>(y) * image.width + x;
+        ++tally_.rays;
+        const oracle::Hit truth = camera_truth.nearest(d);
+        std::string expected = std::to_string(truth.face), actual = std::to_string(image.ids[i]);
+        for (std::size_t l = 0; l < lights.size(); ++l) {
+          bool is_lit = false;
+          if (truth.face != kNoFace) {
+            const Mesh& mesh = scene.mesh();
+            is_lit = light_truths[l].is_lit(
+                {view.position,
+                 d,
+                 {mesh.vertex(truth.face, 0), mesh.vertex(truth.face, 1), mesh.vertex(truth.face, 2)},
+                 truth.face,
+                 truth.side});
+            ++tally_.shadow_questions;
+          }
+          expected += is_lit ? '1' : '0';
+          actual += image.lights[i * image.light_bytes() + l / 8] >> (l % 8) & 1 ? '1' : '0';
+        }
+        tally_.hits += truth.face != kNoFace;
+        if (expected == actual) continue;
+        ++tally_.differences;
+        std::string where = "camera " + test_queries::text(view.position) + " look at " +
+                            test_queries::text(view.look_at) + " up " + test_queries::text(view.up) +
+                            (view.projection == ProjectionKind::Plane ? " plane " : " surface ") +
+                            std::to_string(view.field_angle) + " size " + std::to_string(options.width) + "x" +
+                            std::to_string(options.height) + "x" + std::to_string(n);
+        for (const Light& light : lights) where += " light " + test_queries::text(light.position);
+        ADD_FAILURE() << test.name << " pixel " << x << " " << y << ": " << actual << ", the oracle " << expected
+                      << " (tied " << truth.tied << ", inside " << truth.strictly_inside << "), target "
+                      << simd::name_of(simd::active_target()) << ", " << options.threads << " threads, strategy "
+                      << static_cast<int>(options.strategy) << "; " << test_queries::write_failure(scene.mesh(), where);
+        if (tally_.differences >= 20) return;
+      }
+    }
+  }
+
+  Random random_;
+  Tally tally_;
+};
+
+TEST(WholePictures, EqualTheOracle) {
+  Session session(number_from_environment("FACEMAP_SEED", 0x5eed0060));
+  const Tally& tally = session.ask(number_from_environment("FACEMAP_QUERIES", 300'000));
+  EXPECT_EQ(tally.differences, 0u);
+  EXPECT_GE(4 * tally.hits, tally.rays);
+}
+
+}  // namespace
