@@ -1,0 +1,197 @@
+#include "picture/shadow_faces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "map/face_planes.h"
+
+namespace facemap {
+namespace {
+
+using simd::kShadowFaces;
+using simd::ShadowPlanes;
+
+constexpr std::size_t kGroup = ShadowPlanes::kFaces;
+
+// Open pairs are kept until there are this many: by then most of their points are blocked for certain.
+constexpr std::size_t kMostUndecided = std::size_t{1} << 16;
+
+// No w is greater: for faces of which nothing is known, and less than what a block has that is blocked altogether.
+constexpr float kNoBound = 0x1p126f;
+
+// Rows of a face that is to be passed over: the first is after the last.
+constexpr std::int32_t kNoRows = 1;
+
+struct Range {
+  float lower = std::numeric_limits<float>::infinity();
+  float upper = -std::numeric_limits<float>::infinity();
+
+  void add(float x) {
+    lower = std::min(lower, x);
+    upper = std::max(upper, x);
+  }
+};
+
+// One coordinate of a face that crosses the plane Z = 0 through the light. An edge from a corner in front to one behind
+// leaves the raster's plane towards plus or minus infinity: for corners at u and u', Z > 0 > Z', it meets Z = 0 at an X
+// of the sign of u - u'.
+Range range_across(const Range& front, const Range& behind) {
+  Range range = front;
+  const float largest = std::max(
+      {std::fabs(front.lower), std::fabs(front.upper), std::fabs(behind.lower), std::fabs(behind.upper), 1.0f});
+  const float margin = simd::kShadowMargin * largest;
+  if (front.upper + margin >= behind.lower) range.upper = std::numeric_limits<float>::infinity();
+  if (front.lower - margin <= behind.upper) range.lower = -std::numeric_limits<float>::infinity();
+  return range;
+}
+
+// First and last texel of a range, first | last << 16, as the kernels do it; the range must meet the raster.
+std::int32_t texels_of(const Range& range, int count) {
+  const float half = 0.5f * static_cast<float>(count), last = static_cast<float>(count - 1);
+  const auto texel = [&](float x) { return static_cast<std::int32_t>(std::clamp(x * half + half, 0.0f, last)); };
+  return texel(range.lower - simd::kShadowMargin) | texel(range.upper + simd::kShadowMargin) << 16;
+}
+
+bool meets_raster(const Range& range) {
+  return range.lower <= 1 + simd::kShadowMargin && range.upper >= -1 - simd::kShadowMargin;
+}
+
+template <class T>
+std::size_t bytes_of(const std::vector<T>& v) {
+  return v.capacity() * sizeof(T);
+}
+
+template <class T>
+void drop(std::vector<T>& v, std::size_t count) {
+  v.erase(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
+}  // namespace
+
+void ShadowFaces::Queue::push(std::uint32_t f, std::int32_t c, std::int32_t r, float n) {
+  face.push_back(f);
+  columns.push_back(c);
+  rows.push_back(r);
+  nearest.push_back(n);
+}
+
+void ShadowFaces::Queue::drop_front(std::size_t count) {
+  drop(face, count);
+  drop(columns, count);
+  drop(rows, count);
+  drop(nearest, count);
+}
+
+void ShadowFaces::run(const ShadowRun& run, ShadowPoints& points, Counters& counters) {
+  const Mesh& mesh = run.scene.mesh();
+  const std::size_t vertices = mesh.positions.size();
+  if (places_.size() < 3 * (vertices + 16)) places_.resize(3 * (vertices + 16));
+  simd::project_vertices(run.frame, &mesh.positions[0].x, vertices, places_.data());
+
+  queue_ = {};
+  undecided_.clear();
+  for (std::size_t first = 0; first < mesh.face_count(); first += kShadowFaces) {
+    const std::size_t last = std::min(first + kShadowFaces, mesh.face_count());
+    simd::sift_faces(
+        {mesh.triangles[0].data(), places_.data(), run.skip_entries, first, last, points.raster(), &points.farthest()},
+        sifted_);
+    queue_sifted(run.scene);
+    queue_odd(run, points.raster());
+    test_queue(run, points, queue_.face.size() / kGroup * kGroup, counters);
+    if (undecided_.size() > kMostUndecided) resolve(run, points);
+  }
+  test_queue(run, points, queue_.face.size(), counters);
+  resolve(run, points);
+}
+
+void ShadowFaces::queue_sifted(const Scene& scene) {
+  for (std::size_t i = 0; i < sifted_.count; ++i) {
+    if (!scene.is_kept(sifted_.face[i])) continue;
+    queue_.push(sifted_.face[i], sifted_.columns[i], sifted_.rows[i], sifted_.nearest[i]);
+  }
+}
+
+void ShadowFaces::queue_odd(const ShadowRun& run, const simd::ShadowRaster& raster) {
+  for (std::size_t i = 0; i < sifted_.odd_count; ++i) {
+    const std::uint32_t face = sifted_.odd[i];
+    if (!run.scene.is_kept(face)) continue;
+    Range u[2], v[2];  // in front, behind
+    bool is_placed = true;
+    for (const std::uint32_t vertex : run.scene.mesh().triangles[face]) {
+      const float* place = &places_[3 * static_cast<std::size_t>(vertex)];
+      is_placed = is_placed && !std::isnan(place[2]);
+      u[place[2] < 0].add(place[0]);
+      v[place[2] < 0].add(place[1]);
+    }
+    const Range across = is_placed ? range_across(u[0], u[1]) : Range{-1, 1};
+    const Range along = is_placed ? range_across(v[0], v[1]) : Range{-1, 1};
+    if (!meets_raster(across) || !meets_raster(along)) continue;
+    queue_.push(face, texels_of(across, raster.columns), texels_of(along, raster.rows), kNoBound);
+  }
+}
+
+void ShadowFaces::test_queue(const ShadowRun& run, ShadowPoints& points, std::size_t count, Counters& counters) {
+  if (count == 0) return;
+  const std::size_t groups = (count + kGroup - 1) / kGroup, whole = groups * kGroup;
+  for (std::size_t i = count; i < whole; ++i) queue_.push(queue_.face[0], 0, kNoRows, 0);
+  corners_.resize(std::max(corners_.size(), groups));
+  planes_.resize(std::max(planes_.size(), groups));
+  sides_.resize(std::max(sides_.size(), whole));
+
+  const Mesh& mesh = run.scene.mesh();
+  for (std::size_t i = 0; i < whole; ++i) {
+    simd::ShadowCorners& corners = corners_[i / kGroup];
+    for (int k = 0; k < 3; ++k) {
+      const Vector& p = mesh.vertex(queue_.face[i], k);
+      for (int axis = 0; axis < 3; ++axis) corners.of[k][axis][i % kGroup] = p[axis];
+    }
+  }
+  simd::set_up_planes(run.frame, corners_.data(), groups, run.slack, planes_.data(), sides_.data());
+  settle_sides(run, count, counters);
+
+  simd::SortedPoints sorted = points.sorted();
+  for (std::size_t g = 0; g < groups; ++g) {
+    const std::size_t i = g * kGroup;
+    const simd::ShadowBatch batch{&planes_[g],     &queue_.face[i],    &queue_.columns[i],
+                                  &queue_.rows[i], &queue_.nearest[i], &sides_[i]};
+    counters.by_float += simd::test_points(batch, sorted, jobs_, undecided_);
+  }
+  queue_.drop_front(whole);
+}
+
+// Sides that doubles leave open are asked of exact arithmetic; faces seen edge-on and entry faces are passed over.
+void ShadowFaces::settle_sides(const ShadowRun& run, std::size_t count, Counters& counters) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t face = queue_.face[i];
+    if (sides_[i] == 0) {
+      sides_[i] = static_cast<std::int8_t>(side(triangle_of(run.scene, face), run.light, &counters));
+      if (sides_[i] < 0) {
+        ShadowPlanes& planes = planes_[i / kGroup];
+        for (auto& edge : planes.edges) {
+          for (auto& coefficient : edge) coefficient[i % kGroup] = -coefficient[i % kGroup];
+        }
+      }
+    }
+    const bool is_skipped = sides_[i] < 0 && run.skip_entries != nullptr && run.skip_entries[face] != 0;
+    if (sides_[i] == 0 || is_skipped) queue_.rows[i] = kNoRows;
+  }
+}
+
+void ShadowFaces::resolve(const ShadowRun& run, ShadowPoints& points) {
+  for (const simd::UndecidedPair& pair : undecided_) {
+    if (points.is_blocked(pair.place)) continue;
+    const std::uint32_t point = points.point_at(pair.place);
+    if (run.asked.faces[point] == pair.face) continue;
+    if (run.blocks_exactly(point, pair.face, pair.side)) points.set_blocked(pair.place);
+  }
+  undecided_.clear();
+}
+
+std::size_t ShadowFaces::memory_bytes() const noexcept {
+  return sizeof(*this) + bytes_of(places_) + bytes_of(queue_.face) + bytes_of(queue_.columns) + bytes_of(queue_.rows) +
+         bytes_of(queue_.nearest) + bytes_of(corners_) + bytes_of(planes_) + bytes_of(sides_) + bytes_of(jobs_) +
+         bytes_of(undecided_);
+}
+
+}  // namespace facemap

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "simd/shadow_faces.h"
+#include "simd/shadow_points.h"
+#include "simd/shadow_tests.h"
+
+namespace facemap {
+
+/// The points of one raster, sorted by texel into blocks of sixteen, with what the faces run over needs to know of
+/// them. Memory is kept from one light to the next.
+class ShadowPoints {
+ public:
+  /// Sorts those of `from`. `rest` becomes the points that have no place on the raster.
+  void sort(const simd::PointsToProject& from, std::size_t wanted, std::vector<std::uint32_t>& rest);
+
+  std::size_t count() const noexcept { return count_; }
+  simd::ShadowRaster raster() const noexcept { return raster_; }
+  const simd::FarthestPyramid& farthest() const noexcept { return pyramid_; }
+  simd::SortedPoints sorted() noexcept;
+
+  std::uint32_t point_at(std::uint32_t place) const {
+    return blocks_[place / simd::ShadowBlock::kPoints].point[place % simd::ShadowBlock::kPoints];
+  }
+  bool is_blocked(std::uint32_t place) const { return (blocked_[place / 16] >> (place % 16) & 1) != 0; }
+  void set_blocked(std::uint32_t place) {
+    blocked_[place / 16] = static_cast<std::uint16_t>(blocked_[place / 16] | 1u << (place % 16));
+  }
+
+  std::size_t memory_bytes() const noexcept;
+
+ private:
+  void count_texels();
+  void fill_blocks();
+  void build_pyramid();
+
+  simd::ShadowRaster raster_;
+  std::size_t count_ = 0;
+  std::size_t block_count_ = 0;
+  std::vector<simd::ShadowRecord> records_;
+  std::vector<std::uint32_t> texels_;
+  std::vector<std::uint32_t> begins_;  ///< while sorting: the next place of each texel's next point
+  std::vector<simd::ShadowBlock> blocks_;
+  std::vector<float> farthest_of_block_;
+  std::vector<std::uint16_t> blocked_;
+  std::vector<float> cells_;
+  simd::FarthestPyramid pyramid_{};
+};
+
+}  // namespace facemap

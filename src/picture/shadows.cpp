@@ -1,0 +1,228 @@
+#include "picture/shadows.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "picture/gnomonic.h"
+#include "picture/shadow_faces.h"
+#include "picture/shadow_points.h"
+#include "picture/shadow_rest.h"
+#include "simd/floating_point_mode.h"
+
+namespace facemap {
+
+struct ShadowScratch::Parts {
+  std::vector<std::uint8_t> wanted;  ///< one a point: a bit for each side of the light that is to place it
+  std::vector<std::uint32_t> rest;
+  ShadowPoints points;
+  ShadowFaces faces;
+};
+
+ShadowScratch::ShadowScratch() : parts_(std::make_unique<Parts>()) {}
+ShadowScratch::~ShadowScratch() = default;
+ShadowScratch::ShadowScratch(ShadowScratch&&) noexcept = default;
+ShadowScratch& ShadowScratch::operator=(ShadowScratch&&) noexcept = default;
+
+std::size_t ShadowScratch::memory_bytes() const noexcept {
+  return sizeof(Parts) + parts_->wanted.capacity() + parts_->rest.capacity() * sizeof(std::uint32_t) +
+         parts_->points.memory_bytes() + parts_->faces.memory_bytes();
+}
+
+namespace {
+
+// Kernels read this much past the end of `wanted`.
+constexpr std::size_t kPadding = 64;
+
+// Bounds of the error of a point's X, Y and Z, in units of 2^-24 Z, that the filter is told of. The least costs nothing
+// to speak of; points nearer to the light than the greatest allows are asked singly.
+constexpr double kLeastSlack = 0x1p-4;
+constexpr double kGreatestSlack = 4;
+
+// Points with a lesser Z (the farthest have about 1) are asked singly whatever their error: w stays a normal float.
+constexpr double kLeastZ = 0x1p-60;
+
+// Vertices are gathered by 32-bit numbers of floats.
+constexpr std::size_t kMostVertices = std::size_t{1} << 29;
+
+constexpr int kSides = 6;
+
+// The asked points whose bit is set, and where they lie.
+struct Wanted {
+  std::size_t count = 0;
+  std::array<double, 3> lower{HUGE_VAL, HUGE_VAL, HUGE_VAL};  // of their integers
+  std::array<double, 3> upper{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+};
+
+struct Side {
+  std::size_t count = 0;
+  double nearest = HUGE_VAL;  // world units: the least of the points' greatest components
+};
+
+class LightPass {
+ public:
+  LightPass(const Scene& scene, const Vector& light, const AskedPoints& points, const MaskBit& mask,
+            const std::uint8_t* skip_entries, const BlocksExactly& blocks_exactly, ShadowScratch::Parts& parts)
+      : scene_(scene),
+        light_(light),
+        points_(points),
+        mask_(mask),
+        skip_entries_(skip_entries),
+        blocks_exactly_(blocks_exactly),
+        parts_(parts),
+        from_light_(points.origin - DVector(light)) {}
+
+  void run() {
+    const Wanted wanted = find_wanted();
+    if (wanted.count == 0) return;
+    if (scene_.mesh().positions.size() > kMostVertices) return ask_all_singly();
+    const OffsetBox box{from_light_ + points_.step * DVector(wanted.lower[0], wanted.lower[1], wanted.lower[2]),
+                        from_light_ + points_.step * DVector(wanted.upper[0], wanted.upper[1], wanted.upper[2])};
+    size_ = 0;
+    for (int k = 0; k < 3; ++k) {
+      size_ +=
+          std::fabs(from_light_[k]) + points_.step * std::max(std::fabs(wanted.lower[k]), std::fabs(wanted.upper[k]));
+    }
+    if (const auto frame = frame_towards(light_, box)) {
+      run_frame(*frame, 1, wanted.count, nearest_of(*frame, box));
+    } else {
+      run_sides();
+    }
+  }
+
+  const Counters& counters() const { return counters_; }
+
+ private:
+  // Sets wanted[] to 1 where the point's bit is set.
+  Wanted find_wanted() {
+    const std::size_t count = points_.size();
+    parts_.wanted.assign(count + kPadding, 0);
+    const std::uint8_t* masks = mask_.masks + mask_.bit / 8;
+    const int shift = mask_.bit % 8;
+    Wanted wanted;
+    std::array<std::int32_t, 3> lower, upper;
+    lower.fill(std::numeric_limits<std::int32_t>::max());
+    upper.fill(std::numeric_limits<std::int32_t>::min());
+    for (std::size_t i = 0; i < count; ++i) {
+      if ((masks[i * mask_.stride] >> shift & 1) == 0) continue;
+      parts_.wanted[i] = 1;
+      ++wanted.count;
+      const std::int32_t q[3] = {points_.x[i], points_.y[i], points_.z[i]};
+      for (int k = 0; k < 3; ++k) {
+        lower[k] = std::min(lower[k], q[k]);
+        upper[k] = std::max(upper[k], q[k]);
+      }
+    }
+    for (int k = 0; k < 3; ++k) {
+      wanted.lower[k] = lower[k];
+      wanted.upper[k] = upper[k];
+    }
+    return wanted;
+  }
+
+  double nearest_of(const simd::ShadowFrame& frame, const OffsetBox& box) const {
+    double nearest = 0;
+    for (int k = 0; k < 3; ++k) nearest += std::min(frame.rows[2][k] * box.lower[k], frame.rows[2][k] * box.upper[k]);
+    return nearest;
+  }
+
+  void run_sides() {
+    std::array<Side, kSides> sides;
+    double farthest = 0;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (parts_.wanted[i] == 0) continue;
+      const DVector offset = from_light_ + points_.step * DVector(points_.x[i], points_.y[i], points_.z[i]);
+      int axis = std::fabs(offset.y) > std::fabs(offset.x) ? 1 : 0;
+      if (std::fabs(offset.z) > std::fabs(offset[axis])) axis = 2;
+      const double depth = std::fabs(offset[axis]);
+      const int side = 2 * axis + (offset[axis] < 0 ? 1 : 0);
+      parts_.wanted[i] = static_cast<std::uint8_t>(1u << side);
+      ++sides[side].count;
+      sides[side].nearest = std::min(sides[side].nearest, depth);
+      farthest = std::max(farthest, depth);
+    }
+    if (!(farthest > 0)) return ask_all_singly();
+    for (int side = 0; side < kSides; ++side) {
+      if (sides[side].count == 0) continue;
+      run_frame(frame_of_side(light_, side, farthest), static_cast<std::uint8_t>(1u << side), sides[side].count,
+                sides[side].nearest / farthest);
+    }
+  }
+
+  void run_frame(const simd::ShadowFrame& frame, std::uint8_t bit, std::size_t wanted, double nearest) {
+    // A row of unit length sqrt(3) `largest` times the point's own error; the matrix and the offset rounded, three
+    // products and three sums: 13 roundings of 2^-53.
+    const double error = frame.largest * (2 * points_.error + 0x1p-49 * size_);
+    const double slack = std::clamp(error / nearest * 0x1p24, kLeastSlack, kGreatestSlack);
+    simd::PointsToProject from{
+        points_.x.data(), points_.y.data(), points_.z.data(), parts_.wanted.data(), bit, points_.size(), {}, {}, 0};
+    for (int i = 0; i < 3; ++i) {
+      from.offset[i] = 0;
+      for (int k = 0; k < 3; ++k) {
+        from.matrix[i][k] = frame.rows[i][k] * points_.step;
+        from.offset[i] += frame.rows[i][k] * from_light_[k];
+      }
+    }
+    from.nearest = static_cast<float>(std::max(error * 0x1p24 / slack, kLeastZ) * (1 + 0x1p-20));
+
+    parts_.points.sort(from, wanted, parts_.rest);
+    if (parts_.points.count() > 0) {
+      parts_.faces.run({scene_, light_, frame, slack, skip_entries_, points_, blocks_exactly_}, parts_.points,
+                       counters_);
+      clear_blocked_places();
+    }
+    ask_rest();
+  }
+
+  void clear_blocked_places() {
+    const ShadowPoints& points = parts_.points;
+    for (std::uint32_t place = 0; place < points.count(); ++place) {
+      if (points.is_blocked(place)) clear(points.point_at(place));
+    }
+  }
+
+  void ask_all_singly() {
+    parts_.rest.clear();
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (parts_.wanted[i] != 0) parts_.rest.push_back(static_cast<std::uint32_t>(i));
+    }
+    ask_rest();
+  }
+
+  void ask_rest() {
+    for (const std::uint32_t point :
+         find_blocked_singly(scene_, light_, points_, parts_.rest, blocks_exactly_, &counters_)) {
+      clear(point);
+    }
+  }
+
+  void clear(std::size_t point) {
+    std::uint8_t& byte = mask_.masks[point * mask_.stride + static_cast<std::size_t>(mask_.bit / 8)];
+    byte = static_cast<std::uint8_t>(byte & ~(1u << (mask_.bit % 8)));
+  }
+
+  const Scene& scene_;
+  const Vector& light_;
+  const AskedPoints& points_;
+  const MaskBit& mask_;
+  const std::uint8_t* skip_entries_;
+  const BlocksExactly& blocks_exactly_;
+  ShadowScratch::Parts& parts_;
+  const DVector from_light_;  // to the points' origin
+  double size_ = 0;           // bound of |offset|_1 as it is summed
+  Counters counters_;
+};
+
+}  // namespace
+
+void clear_blocked(const Scene& scene, const Vector& light, const AskedPoints& points, const MaskBit& mask,
+                   const std::uint8_t* skip_entries, const BlocksExactly& blocks_exactly, ShadowScratch& scratch,
+                   Counters* counters) {
+  const FloatingPointMode mode;
+  LightPass pass(scene, light, points, mask, skip_entries, blocks_exactly, scratch.parts());
+  pass.run();
+  if (counters != nullptr) *counters += pass.counters();
+}
+
+}  // namespace facemap

@@ -1,0 +1,146 @@
+#include "simd/shadow_points.h"
+
+#include <algorithm>
+#include <cstring>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simd/shadow_points.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "simd/dispatch.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace facemap::simd::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using DF = hn::CappedTag<float, 16>;
+using DU = hn::RebindToUnsigned<DF>;
+using DI = hn::RebindToSigned<DF>;
+using DD = hn::CappedTag<double, 8>;
+using DHalfF = hn::Rebind<float, DD>;
+using DHalfI = hn::Rebind<std::int32_t, DD>;
+using DBytes = hn::Rebind<std::uint8_t, DU>;
+
+// Points are transformed this many at a time, in doubles, before they are divided.
+constexpr std::size_t kRun = 64;
+
+struct Run {
+  alignas(64) float X[kRun], Y[kRun], Z[kRun];
+};
+
+// One coordinate of a row: ((m0 x + m1 y) + m2 z) + offset.
+HWY_INLINE hn::Vec<DD> row_of(const double* row, double offset, hn::Vec<DD> x, hn::Vec<DD> y, hn::Vec<DD> z) {
+  const DD d;
+  const auto xy = hn::Add(hn::Mul(hn::Set(d, row[0]), x), hn::Mul(hn::Set(d, row[1]), y));
+  return hn::Add(hn::Add(xy, hn::Mul(hn::Set(d, row[2]), z)), hn::Set(d, offset));
+}
+
+HWY_INLINE void transform(const PointsToProject& from, std::size_t first, Run& run) {
+  const std::size_t count = std::min(kRun, from.count - first);
+  const std::int32_t *px = from.x + first, *py = from.y + first, *pz = from.z + first;
+  alignas(64) std::int32_t last_run[3][kRun];
+  if (count < kRun) {
+    std::memset(last_run, 0, sizeof(last_run));
+    px = std::copy_n(px, count, last_run[0]) - count;
+    py = std::copy_n(py, count, last_run[1]) - count;
+    pz = std::copy_n(pz, count, last_run[2]) - count;
+  }
+  const DD d;
+  const DHalfF half;
+  const DHalfI half_int;
+  for (std::size_t i = 0; i < kRun; i += hn::Lanes(d)) {
+    const auto x = hn::PromoteTo(d, hn::LoadU(half_int, px + i));
+    const auto y = hn::PromoteTo(d, hn::LoadU(half_int, py + i));
+    const auto z = hn::PromoteTo(d, hn::LoadU(half_int, pz + i));
+    hn::Store(hn::DemoteTo(half, row_of(from.matrix[0], from.offset[0], x, y, z)), half, run.X + i);
+    hn::Store(hn::DemoteTo(half, row_of(from.matrix[1], from.offset[1], x, y, z)), half, run.Y + i);
+    hn::Store(hn::DemoteTo(half, row_of(from.matrix[2], from.offset[2], x, y, z)), half, run.Z + i);
+  }
+}
+
+// Column or row of a coordinate: monotone in it, whatever the rounding. The spans of faces use the same steps.
+HWY_INLINE hn::Vec<DI> texel_of(hn::Vec<DF> coordinate, int count) {
+  const DF d;
+  const auto half = hn::Set(d, 0.5f * static_cast<float>(count));
+  const auto place = hn::Add(hn::Mul(coordinate, half), half);
+  const auto last = hn::Set(d, static_cast<float>(count - 1));
+  return hn::ConvertTo(DI(), hn::Min(hn::Max(place, hn::Zero(d)), last));
+}
+
+void project_points(const PointsToProject& from, const ShadowRaster& raster, ProjectedPoints& to) {
+  const DF d;
+  const DU du;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto one = hn::Set(d, 1.0f);
+  Run run;
+  for (std::size_t first = 0; first < from.count; first += kRun) {
+    transform(from, first, run);
+    for (std::size_t i = 0; i < kRun && first + i < from.count; i += lanes) {
+      const auto bytes = hn::PromoteTo(du, hn::LoadU(DBytes(), from.wanted + first + i));
+      const auto number = hn::Add(hn::Iota(du, 0), hn::Set(du, static_cast<std::uint32_t>(first + i)));
+      const auto is_within = hn::Lt(number, hn::Set(du, static_cast<std::uint32_t>(from.count)));
+      const auto is_wanted = hn::And(hn::TestBit(bytes, hn::Set(du, from.bit)), is_within);
+      if (hn::AllFalse(du, is_wanted)) continue;
+
+      const auto Z = hn::Load(d, run.Z + i);
+      const auto w = hn::Div(one, Z);
+      const auto u = hn::Mul(hn::Load(d, run.X + i), w), v = hn::Mul(hn::Load(d, run.Y + i), w);
+      const auto is_inside = hn::And(hn::Le(hn::Max(hn::Abs(u), hn::Abs(v)), one), hn::Ge(Z, hn::Set(d, from.nearest)));
+      const auto is_on = hn::And(is_wanted, hn::RebindMask(du, is_inside));
+      const auto is_rest = hn::AndNot(hn::RebindMask(du, is_inside), is_wanted);
+      if (!hn::AllFalse(du, is_rest)) {
+        to.rest_count += hn::CompressStore(number, is_rest, du, to.rest + to.rest_count);
+      }
+
+      const auto column = texel_of(u, raster.columns), row = texel_of(v, raster.rows);
+      const auto texel = hn::Add(hn::Mul(row, hn::Set(DI(), raster.columns)), column);
+      alignas(64) ShadowRecord records[16];
+      hn::StoreInterleaved4(u, v, w, hn::BitCast(d, number), d, &records[0].u);
+      alignas(64) std::uint8_t bits[8] = {};
+      hn::StoreMaskBits(du, is_on, bits);
+      hn::CompressStore(hn::BitCast(du, texel), is_on, du, to.texels + to.count);
+      for (unsigned on = bits[0] | static_cast<unsigned>(bits[1]) << 8; on != 0; on &= on - 1) {
+        to.records[to.count++] = records[__builtin_ctz(on)];
+      }
+    }
+  }
+}
+
+void finish_blocks(ShadowBlock* blocks, std::size_t count, float* farthest) {
+  const DF d;
+  const std::size_t lanes = hn::Lanes(d);
+  for (std::size_t b = 0; b < count; ++b) {
+    ShadowBlock& block = blocks[b];
+    alignas(64) float records[4 * ShadowBlock::kPoints];
+    std::memcpy(records, &block, sizeof(records));
+    auto least = hn::Set(d, 0x1p127f);
+    for (std::size_t i = 0; i < ShadowBlock::kPoints; i += lanes) {
+      hn::Vec<DF> u, v, w, point;
+      hn::LoadInterleaved4(d, records + 4 * i, u, v, w, point);
+      hn::Store(u, d, block.u + i);
+      hn::Store(v, d, block.v + i);
+      hn::Store(w, d, block.w + i);
+      hn::Store(hn::BitCast(DU(), point), DU(), block.point + i);
+      least = hn::Min(least, w);
+    }
+    farthest[b] = hn::GetLane(hn::MinOfLanes(d, least));
+  }
+}
+
+}  // namespace facemap::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace facemap::simd {
+
+void project_points(const PointsToProject& from, const ShadowRaster& raster, ProjectedPoints& to) {
+  FACEMAP_DISPATCH(project_points)(from, raster, to);
+}
+
+void finish_blocks(ShadowBlock* blocks, std::size_t count, float* farthest) {
+  FACEMAP_DISPATCH(finish_blocks)(blocks, count, farthest);
+}
+
+}  // namespace facemap::simd
+#endif
