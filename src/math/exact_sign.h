@@ -8,8 +8,8 @@
 #include "math/tracked.h"
 
 /// Signs of expressions over the real numbers that float32 inputs are. Nothing is rounded first: doubles with one bound
-/// made of the sizes of the inputs (plain_signs.h) decide if they can, integers on the stack (numbers.h) decide the rest.
-/// The float32 filter in front of both works on prepared planes (map/face_planes.h).
+/// made of the sizes of the inputs (plain_signs.h) decide if they can, integers on the stack (numbers.h) decide the
+/// rest. The float32 filter in front of both works on prepared planes (map/face_planes.h).
 ///
 /// Letters: O a map's origin, L a light's, K a camera's; a, b, c the corners of a face; n = (b-a) x (c-a);
 /// s = sign det(a-O, b-O, c-O), -1 if the face is turned towards O, 1 if away, 0 if seen edge-on.
