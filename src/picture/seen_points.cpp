@@ -25,7 +25,7 @@ static_assert(kTile * kTile == simd::kSeenBatch);
 
 // The box of the seen points is guessed from one sample in each cell of a larger picture. Coordinates of the guessed
 // box take kBoxBits, which leaves as much room again on every side before round_offsets refuses a point.
-constexpr int kCell = 4;
+constexpr int kCell = 8;
 constexpr std::size_t kSmallPicture = 65536;
 constexpr int kBoxBits = 29;
 
@@ -61,14 +61,10 @@ std::uint64_t scrambled(std::uint64_t x) {
 struct Work {
   explicit Work(const Mesh& mesh) : slots(mesh) {}
 
-  void clear() {
-    slots.clear();
-    rays.count = 0;
-  }
-
   FaceSlots slots;
   simd::RayBatch rays;
   std::uint32_t samples[simd::kSeenBatch];
+  std::uint32_t faces[simd::kSeenBatch];
   std::uint8_t is_sharp[simd::kSeenBatch];
   std::int32_t coordinates[3][simd::kSeenBatch];
   std::int32_t facing[simd::kSeenBatch], unsure[simd::kSeenBatch];
@@ -136,27 +132,37 @@ class PointFinder {
 
   // ---- batches ----
 
-  void add_sample(int column, int row, Work& work) const {
-    const std::size_t sample = static_cast<std::size_t>(row) * columns() + static_cast<std::size_t>(column);
-    const FaceId face = nearest_.faces[sample];
-    if (face == kNoFace) return;
-    const std::size_t i = work.rays.count++;
-    work.samples[i] = static_cast<std::uint32_t>(sample);
-    work.rays.map_x[i] = rays_.columns[static_cast<std::size_t>(column)];
-    work.rays.map_y[i] = rays_.rows[static_cast<std::size_t>(row)];
-    work.rays.slots[i] = work.slots.slot_of(static_cast<std::uint32_t>(face));
+  // Those of the samples begin..end-1 of a row that see a face.
+  void add_run(int row, int begin, int end, Work& work) const {
+    const auto first = static_cast<std::size_t>(row) * columns() + static_cast<std::size_t>(begin);
+    const FaceId* faces = nearest_.faces.data() + first;
+    const int length = end - begin;
+    FaceId all = kNoFace;  // -1, and stays so only as long as no id is a face
+    for (int i = 0; i < length; ++i) all &= faces[i];
+    if (all == kNoFace) return;
+
+    const double* x = rays_.columns.data() + begin;
+    const double y = rays_.rows[static_cast<std::size_t>(row)];
+    std::size_t count = work.rays.count;
+    for (int i = 0; i < length; ++i) {
+      const FaceId face = faces[i];
+      work.samples[count] = static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(i);
+      work.faces[count] = static_cast<std::uint32_t>(face);
+      work.rays.map_x[count] = x[i];
+      work.rays.map_y[count] = y;
+      count += face != kNoFace;  // no branch: edges of shapes are hard to predict
+    }
+    work.rays.count = count;
   }
 
   void collect_tile(const Tile& tile, Work& work) const {
-    work.clear();
+    work.rays.count = 0;
     const int end_column = std::min(tile.column + kTile, grid_.columns());
     const int end_row = std::min(tile.row + kTile, grid_.rows());
     for (int left = tile.column; left < end_column; left += kBlockColumns) {
       for (int top = tile.row; top < end_row; top += kBlockRows) {
         for (int row = top; row < std::min(top + kBlockRows, end_row); ++row) {
-          for (int column = left; column < std::min(left + kBlockColumns, end_column); ++column) {
-            add_sample(column, row, work);
-          }
+          add_run(row, left, std::min(left + kBlockColumns, end_column), work);
         }
       }
     }
@@ -164,13 +170,13 @@ class PointFinder {
 
   // One sample in each cell, at a place that varies so that no pattern of the picture hides from it.
   void collect_some(const Tile& tile, Work& work) const {
-    work.clear();
+    work.rays.count = 0;
     for (int top = tile.row; top < tile.row + kTile; top += kCell) {
       for (int left = tile.column; left < tile.column + kTile; left += kCell) {
         const auto cell = static_cast<std::uint64_t>(top) << 32 | static_cast<std::uint64_t>(left);
         const int place = static_cast<int>(scrambled(cell) % (kCell * kCell));
         const int column = left + place % kCell, row = top + place / kCell;
-        if (column < grid_.columns() && row < grid_.rows()) add_sample(column, row, work);
+        if (column < grid_.columns() && row < grid_.rows()) add_run(row, column, column + 1, work);
       }
     }
   }
@@ -179,6 +185,7 @@ class PointFinder {
   void find_offsets(const Vector& origin, double allowed, Work& work) const {
     const float K[3] = {camera_.x, camera_.y, camera_.z};
     simd::RayBatch& rays = work.rays;
+    work.slots.assign(work.faces, rays.count, rays.slots);
     simd::set_up_planes(work.slots.planes, K);
     simd::ray_directions(rays_.frame, rays.map_x, rays.map_y, rays.count, rays.direction[0], rays.direction[1],
                          rays.direction[2]);
@@ -192,7 +199,7 @@ class PointFinder {
 
   void sharpen(const Vector& origin, std::size_t i, Work& work) const {
     simd::RayBatch& rays = work.rays;
-    const Triangle face = triangle_of(scene_, work.slots.faces[rays.slots[i]]);
+    const Triangle face = triangle_of(scene_, work.faces[i]);
     const TruePoint point{
         camera_, {rays.direction[0][i], rays.direction[1][i], rays.direction[2][i]}, face, side(face, camera_)};
     const DVector offset = offset_from(origin, point, ray_parameter(point));
@@ -303,7 +310,7 @@ class PointFinder {
     std::memcpy(points.y.data() + first, work.coordinates[1], count * sizeof(std::int32_t));
     std::memcpy(points.z.data() + first, work.coordinates[2], count * sizeof(std::int32_t));
     std::memcpy(points.samples.data() + first, work.samples, count * sizeof(std::uint32_t));
-    for (std::size_t i = 0; i < count; ++i) points.faces[first + i] = work.slots.faces[work.rays.slots[i]];
+    std::memcpy(points.faces.data() + first, work.faces, count * sizeof(std::uint32_t));
   }
 
   void store_masks(std::size_t first, Work& work) {
