@@ -11,6 +11,8 @@
 
 namespace facemap {
 
+class Executor;
+
 /// Faces that are left out of every map, and why. Their ids stay theirs: nothing is renumbered.
 struct OddFaces {
   std::int64_t zero_area = 0;        ///< corners exactly on one line, no vertex named twice
@@ -22,11 +24,12 @@ struct OddFaces {
 /// reference, so a scene must outlive them. Threads may read it together.
 class Scene {
  public:
-  /// Takes a mesh. Throws Error if a position is not finite, an index is out of range or no face is given.
-  explicit Scene(Mesh mesh, std::vector<Material> materials = {});
+  /// Takes a mesh. Throws Error if a position is not finite, an index is out of range or no face is given. `threads`
+  /// may work on a large one (0: as many as the process may run at once); the scene does not depend on them.
+  explicit Scene(Mesh mesh, std::vector<Material> materials = {}, int threads = 0);
 
   /// Reads a model file; the reader is chosen by the file's name (.obj). Throws LoadError.
-  static Scene load(const std::filesystem::path& path);
+  static Scene load(const std::filesystem::path& path, int threads = 0);
 
   const Mesh& mesh() const noexcept { return mesh_; }
   const std::vector<Material>& materials() const noexcept { return materials_; }
@@ -42,6 +45,9 @@ class Scene {
   /// Ids of the faces that take part, ascending.
   const std::vector<std::uint32_t>& kept_faces() const noexcept { return kept_faces_; }
 
+  /// For each position, the index of the first position of the same value (-0 is 0); empty if no two are the same.
+  const std::vector<std::uint32_t>& welded() const noexcept { return welded_; }
+
   /// The axis-parallel box of the vertices of kept faces (of all positions if no face is kept).
   const Vector& lower() const noexcept { return lower_; }
   const Vector& upper() const noexcept { return upper_; }
@@ -51,12 +57,13 @@ class Scene {
   double bounding_radius() const noexcept { return bounding_radius_; }
 
  private:
-  void find_bounds();
+  void find_bounds(const Executor& executor);
 
   Mesh mesh_;
   std::vector<Material> materials_;
   OBJ::Report report_;
   OddFaces odd_;
+  std::vector<std::uint32_t> welded_;
   std::vector<std::uint8_t> kept_;
   std::vector<std::uint32_t> kept_faces_;
   Vector lower_{0}, upper_{0};

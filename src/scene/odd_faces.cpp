@@ -1,88 +1,85 @@
 #include "scene/odd_faces.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
-#include <numeric>
+#include <cmath>
 
 #include "math/exact_sign.h"
+#include "scene/repeats.h"
+#include "scene/welded.h"
 
 namespace facemap {
 
 namespace {
 
-std::uint64_t hash(const Corners& item) {
-  // Multiply and fold, with odd constants of no meaning (golden ratio and the like).
-  std::uint64_t h = (std::uint64_t{item[0]} << 32 | item[1]) * 0x9E3779B97F4A7C15u;
-  h ^= h >> 32;
-  h = (h ^ item[2]) * 0xD6E8FEB86659FD93u;
-  return h ^ h >> 32;
-}
+constexpr std::size_t kLeastPiece = 1 << 15;  ///< items worth a task of their own
+
+/// What a face is found to be before duplicates are looked for.
+enum Oddity : std::uint8_t { kRepeatedVertex, kZeroArea, kHasArea };
 
 std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value == 0 ? 0.0f : value); }
 
-bool repeats_vertex(const Corners& c) { return c[0] == c[1] || c[1] == c[2] || c[2] == c[0]; }
+/// p - q for products of two differences of floats, each rounded to double: off by less than 2^-50 (|p| + |q|).
+bool surely_differ(double p, double q) { return std::fabs(p - q) > 0x1p-50 * (std::fabs(p) + std::fabs(q)); }
+
+/// True only if the corners are not on one line: a component of the normal is surely not 0.
+bool surely_has_area(const Vector& a, const Vector& b, const Vector& c) {
+  const DVector u = DVector(b) - DVector(a), v = DVector(c) - DVector(a);
+  return surely_differ(u.x * v.y, u.y * v.x) || surely_differ(u.y * v.z, u.z * v.y) ||
+         surely_differ(u.z * v.x, u.x * v.z);
+}
+
+Oddity oddity_of(const Mesh& mesh, std::size_t face, const std::vector<std::uint32_t>& welded) {
+  if (repeats_vertex(mesh.triangles[face])) return kRepeatedVertex;
+  const Vector &a = mesh.vertex(face, 0), &b = mesh.vertex(face, 1), &c = mesh.vertex(face, 2);
+  if (surely_has_area(a, b, c)) return kHasArea;
+  return repeats_vertex(welded_corners(mesh.triangles[face], welded)) || is_degenerate(a, b, c) ? kZeroArea : kHasArea;
+}
+
+Key sorted(Key key) {
+  if (key[0] > key[1]) std::swap(key[0], key[1]);
+  if (key[1] > key[2]) std::swap(key[1], key[2]);
+  if (key[0] > key[1]) std::swap(key[0], key[1]);
+  return key;
+}
 
 }  // namespace
 
-std::vector<std::uint32_t> first_equal(const std::vector<Corners>& items) {
-  // Sorts indices into buckets by hash, keeping their order, and then each bucket by value.
-  const std::uint64_t mask = std::bit_ceil(items.size() / 2 + 1) - 1;
-  std::vector<std::uint32_t> bucket_end(mask + 2, 0);
-  for (const Corners& item : items) ++bucket_end[(hash(item) & mask) + 1];
-  std::partial_sum(bucket_end.begin(), bucket_end.end(), bucket_end.begin());
-  std::vector<std::uint32_t> order(items.size());
-  for (std::uint32_t i = 0; i < items.size(); ++i) order[bucket_end[hash(items[i]) & mask]++] = i;
-
-  std::vector<std::uint32_t> first(items.size());
-  auto begin = order.begin();
-  for (std::uint64_t bucket = 0; bucket <= mask; ++bucket) {
-    const auto end = order.begin() + bucket_end[bucket];
-    std::sort(begin, end,
-              [&](std::uint32_t a, std::uint32_t b) { return items[a] != items[b] ? items[a] < items[b] : a < b; });
-    for (auto i = begin; i != end; ++i) {
-      first[*i] = i != begin && items[*i] == items[i[-1]] ? first[i[-1]] : *i;
-    }
-    begin = end;
-  }
-  return first;
+std::vector<std::uint32_t> weld(const std::vector<Vector>& positions, const Executor& executor) {
+  const auto key_of = [&](std::uint32_t i) {
+    return Key{bits(positions[i].x), bits(positions[i].y), bits(positions[i].z)};
+  };
+  const std::vector<Repeat> repeats = RepeatFinder(executor).find(positions.size(), key_of);
+  if (repeats.empty()) return {};
+  std::vector<std::uint32_t> welded(positions.size());
+  for (std::uint32_t i = 0; i < welded.size(); ++i) welded[i] = i;
+  for (const Repeat& repeat : repeats) welded[repeat.item] = repeat.first;
+  return welded;
 }
 
-std::vector<std::uint32_t> weld(const std::vector<Vector>& positions) {
-  std::vector<Corners> items;
-  items.reserve(positions.size());
-  for (const Vector& p : positions) items.push_back({bits(p.x), bits(p.y), bits(p.z)});
-  return first_equal(items);
-}
-
-OddFaces find_odd_faces(const Mesh& mesh, std::vector<std::uint8_t>& kept) {
-  OddFaces odd;
-  kept.assign(mesh.face_count(), 0);
-  const std::vector<std::uint32_t> welded = weld(mesh.positions);
-
-  std::vector<Corners> faces;  // that have an area, with their welded corners ascending
-  std::vector<std::uint32_t> ids;
-  faces.reserve(mesh.face_count());
-  ids.reserve(mesh.face_count());
-  for (std::size_t i = 0; i < mesh.face_count(); ++i) {
-    const Corners& c = mesh.triangles[i];
-    Corners w = {welded[c[0]], welded[c[1]], welded[c[2]]};
-    if (repeats_vertex(c)) {
-      ++odd.repeated_vertex;
-    } else if (repeats_vertex(w) || is_degenerate(mesh.vertex(i, 0), mesh.vertex(i, 1), mesh.vertex(i, 2))) {
-      ++odd.zero_area;
-    } else {
-      std::sort(w.begin(), w.end());
-      faces.push_back(w);
-      ids.push_back(static_cast<std::uint32_t>(i));
+OddFaces find_odd_faces(const Mesh& mesh, const std::vector<std::uint32_t>& welded, const Executor& executor,
+                        std::vector<std::uint8_t>& kept) {
+  kept.resize(mesh.face_count());
+  std::atomic<std::int64_t> repeated_vertex = 0, zero_area = 0;
+  for_ranges(executor, mesh.face_count(), kLeastPiece, [&](std::size_t first, std::size_t last, int) {
+    std::array<std::int64_t, 3> counts{};
+    for (std::size_t face = first; face != last; ++face) {
+      const Oddity oddity = oddity_of(mesh, face, welded);
+      kept[face] = oddity == kHasArea;
+      ++counts[oddity];
     }
-  }
-  const std::vector<std::uint32_t> first = first_equal(faces);
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const bool is_first = first[i] == i;
-    kept[ids[i]] = is_first;
-    odd.duplicate += !is_first;
-  }
-  return odd;
+    repeated_vertex += counts[kRepeatedVertex];
+    zero_area += counts[kZeroArea];
+  });
+
+  const auto key_of = [&](std::uint32_t face) {
+    // A face that is odd already gets a key that no other has: the three corners of a face with an area differ.
+    return kept[face] != 0 ? sorted(welded_corners(mesh.triangles[face], welded)) : Key{face, face, face};
+  };
+  const std::vector<Repeat> repeats = RepeatFinder(executor).find(mesh.face_count(), key_of);
+  for (const Repeat& repeat : repeats) kept[repeat.item] = 0;
+  return {zero_area, repeated_vertex, static_cast<std::int64_t>(repeats.size())};
 }
 
 }  // namespace facemap

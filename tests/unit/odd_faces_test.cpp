@@ -7,29 +7,23 @@
 #include <vector>
 
 #include "math/exact_sign.h"
+#include "parallel/executor.h"
 #include "support/random.h"
 
 namespace facemap {
 namespace {
 
 TEST(OddFaces, WeldsByValue) {
-  EXPECT_EQ(weld({{0, 1, 2}, {-0.0f, 1, 2}, {0, 1, 2.0000002f}, {0, 1, 2}}), (std::vector<std::uint32_t>{0, 0, 2, 0}));
-  EXPECT_TRUE(weld({}).empty());
+  const Executor executor(1);
+  EXPECT_EQ(weld({{0, 1, 2}, {-0.0f, 1, 2}, {0, 1, 2.0000002f}, {0, 1, 2}}, executor),
+            (std::vector<std::uint32_t>{0, 0, 2, 0}));
+  EXPECT_TRUE(weld({}, executor).empty());
+  EXPECT_TRUE(weld({{0, 1, 2}, {0, 1, 2.0000002f}}, executor).empty());  // all differ
 }
 
-TEST(OddFaces, FirstEqualAgreesWithComparingAll) {
-  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    Random random(seed);
-    std::vector<Corners> items(static_cast<std::size_t>(random.below(300)));
-    for (Corners& item : items) {
-      for (std::uint32_t& index : item) index = static_cast<std::uint32_t>(random.below(6));
-    }
-    const std::vector<std::uint32_t> first = first_equal(items);
-    for (std::size_t i = 0; i < items.size(); ++i) {
-      EXPECT_EQ(first[i], static_cast<std::uint32_t>(std::find(items.begin(), items.end(), items[i]) - items.begin()));
-    }
-  }
+OddFaces find_odd_faces(const Mesh& mesh, std::vector<std::uint8_t>& kept, int threads = 1) {
+  const Executor executor(threads);
+  return find_odd_faces(mesh, weld(mesh.positions, executor), executor, kept);
 }
 
 Mesh square_of_four() {
@@ -99,6 +93,32 @@ TEST(OddFaces, AgreesWithComparingAll) {
     EXPECT_EQ(odd.zero_area, expected.zero_area);
     EXPECT_EQ(odd.duplicate, expected.duplicate);
     EXPECT_EQ(kept, expected_kept);
+  }
+}
+
+TEST(OddFaces, AreTheSameForAnyNumberOfThreads) {
+  Random random(7);
+  Mesh mesh;
+  for (int i = 0; i < 200'000; ++i) {
+    mesh.positions.push_back(Vector(random.below(40), random.below(40), random.below(40)));
+  }
+  const int count = static_cast<int>(mesh.positions.size());
+  for (int i = 0; i < 300'000; ++i) {
+    mesh.triangles.push_back({static_cast<std::uint32_t>(random.below(count)),
+                              static_cast<std::uint32_t>(random.below(count)),
+                              static_cast<std::uint32_t>(random.below(count))});
+    if (random.chance(0.1)) mesh.triangles.push_back(mesh.triangles[random.below(i + 1)]);
+  }
+  std::vector<std::uint8_t> kept, kept_by_more;
+  const OddFaces odd = find_odd_faces(mesh, kept);
+  EXPECT_GT(odd.duplicate, 20'000);
+  EXPECT_GT(odd.zero_area, 10);
+  for (const int threads : {2, 3, 8}) {
+    const OddFaces by_more = find_odd_faces(mesh, kept_by_more, threads);
+    EXPECT_EQ(by_more.zero_area, odd.zero_area);
+    EXPECT_EQ(by_more.repeated_vertex, odd.repeated_vertex);
+    EXPECT_EQ(by_more.duplicate, odd.duplicate);
+    EXPECT_EQ(kept_by_more, kept);
   }
 }
 

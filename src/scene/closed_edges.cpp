@@ -1,0 +1,168 @@
+#include "scene/closed_edges.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <deque>
+#include <iterator>
+
+#include "math/exact_sign.h"
+#include "scene/pieces.h"
+#include "scene/welded.h"
+
+namespace facemap {
+
+namespace {
+
+constexpr std::size_t kLeastPiece = 1 << 16;  ///< faces worth a task of their own
+
+/// A directed edge: the vertex it leaves in the upper half, the one it enters in the lower. Never 0, as they differ.
+using Edge = std::uint64_t;
+
+Edge edge(std::uint32_t from, std::uint32_t to) { return Edge{from} << 32 | to; }
+Edge opposite(Edge edge) { return std::rotl(edge, 32); }
+Edge undirected(Edge edge) { return std::min(edge, opposite(edge)); }
+std::uint32_t start_of(Edge edge) { return static_cast<std::uint32_t>(edge >> 32); }
+
+/// In blocks: a list of unknown length without the moves and the spare room of a vector.
+using EdgeList = std::deque<Edge>;
+
+/// Cancels edges against their opposites while they are near each other in the file, as nearly all are: a table holds
+/// the edges seen last; what it must give up is taken to the next stage.
+template <int kSlotBits, class NextStage>
+class EdgeWindow {
+ public:
+  explicit EdgeWindow(NextStage& next) : next_(next), slots_(std::size_t{1} << kSlotBits, kEmpty) {}
+
+  void push_back(Edge e) {
+    // Other bits of the product for each size: edges that share a slot in one stage seldom do in the next.
+    Edge& slot = slots_[undirected(e) * 0x9E3779B97F4A7C15u << kShift >> (64 - kSlotBits)];
+    const Edge seen = slot;
+    const bool cancels = seen == opposite(e);
+    slot = cancels ? kEmpty : e;
+    if (seen != kEmpty && !cancels) next_.push_back(seen);
+  }
+
+  void flush() {
+    for (const Edge e : slots_) {
+      if (e != kEmpty) next_.push_back(e);
+    }
+  }
+
+ private:
+  static constexpr int kShift = kSlotBits;
+  static constexpr Edge kEmpty = 0;
+
+  NextStage& next_;
+  std::vector<Edge> slots_;
+};
+
+// 256 kB and 32 kB: what fits into the second and the first level of caches.
+using FarWindow = EdgeWindow<15, EdgeList>;
+using NearWindow = EdgeWindow<12, FarWindow>;
+
+/// Several threads may set the same one, all to the same value.
+void set_kind(SetKind& kind, SetKind value) { std::atomic_ref(kind).store(value, std::memory_order_relaxed); }
+
+/// The edges that are left of each piece of the faces; marks the sets that have a kept face as closed so far.
+std::vector<EdgeList> cancel_nearby(const Scene& scene, const VertexSets& sets, const Executor& executor,
+                                    std::vector<SetKind>& kinds) {
+  const Pieces pieces(executor, scene.face_count(), kLeastPiece);
+  std::vector<EdgeList> left(pieces.size());
+  executor.for_each(pieces.size(), [&](std::size_t piece, int) {
+    FarWindow far(left[piece]);
+    NearWindow near(far);
+    for (std::size_t face = pieces.begin(piece); face != pieces.end(piece); ++face) {
+      const Corners c = welded_corners(scene.mesh().triangles[face], scene.welded());
+      if (!has_edges(scene, face, c)) continue;
+      near.push_back(edge(c[0], c[1]));
+      near.push_back(edge(c[1], c[2]));
+      near.push_back(edge(c[2], c[0]));
+      if (scene.is_kept(face)) set_kind(kinds[sets.root_of(c[0])], SetKind::Closed);
+    }
+    near.flush();
+    far.flush();
+  });
+  return left;
+}
+
+std::uint64_t weight(Edge edge) {
+  const std::uint64_t h = undirected(edge) * 0xD6E8FEB86659FD93u;
+  return (h ^ h >> 32) * 0x9E3779B97F4A7C15u;
+}
+
+/// Gives each pair of vertices a weight and sums it over the edges of a set, with the sign of their direction. Where
+/// edges cancel the sum is 0; so it proves most open sets open. (A sum of 0 proves nothing.)
+void mark_sets_by_sums(const std::vector<EdgeList>& left, const VertexSets& sets, const Executor& executor,
+                       std::vector<SetKind>& kinds) {
+  std::vector<std::uint64_t> sums(sets.size(), 0);
+  executor.for_each(left.size(), [&](std::size_t piece, int) {
+    for (const Edge e : left[piece]) {
+      const std::uint64_t w = weight(e);
+      std::atomic_ref(sums[sets.root_of(start_of(e))])
+          .fetch_add(e == undirected(e) ? w : 0 - w, std::memory_order_relaxed);
+    }
+  });
+  for (std::size_t root = 0; root < sums.size(); ++root) {
+    if (sums[root] != 0) kinds[root] = SetKind::Open;
+  }
+}
+
+/// Edges by their direction, each as its undirected form.
+struct Directions {
+  std::vector<Edge> up, down;
+};
+
+/// Marks the sets of edges that are there more often in one direction than in the other.
+void mark_sets_by_sorting(Directions& edges, const VertexSets& sets, std::vector<SetKind>& kinds) {
+  std::sort(edges.up.begin(), edges.up.end());
+  std::sort(edges.down.begin(), edges.down.end());
+  std::vector<Edge> unbalanced;
+  std::set_symmetric_difference(edges.up.begin(), edges.up.end(), edges.down.begin(), edges.down.end(),
+                                std::back_inserter(unbalanced));
+  for (const Edge e : unbalanced) {
+    set_kind(kinds[sets.root_of(start_of(e))], SetKind::Open);
+  }
+}
+
+/// Decides the sets that may still be closed, one class of pairs of vertices at a time, which bounds the memory.
+void mark_the_rest(const std::vector<EdgeList>& left, const VertexSets& sets, const Executor& executor,
+                   std::vector<SetKind>& kinds) {
+  constexpr std::size_t kClassSize = 1 << 16;
+  constexpr std::size_t kMostClasses = 16;
+  std::size_t count = 0;
+  for (const EdgeList& edges : left) count += edges.size();
+  const std::size_t classes = std::clamp<std::size_t>(count / kClassSize, 1, kMostClasses);
+  std::vector<SetKind> found = kinds;
+  executor.for_each(classes, [&](std::size_t which, int) {
+    Directions edges;
+    for (const EdgeList& list : left) {
+      for (const Edge e : list) {
+        if (classes > 1 && (weight(e) >> 32) * classes >> 32 != which) continue;
+        if (kinds[sets.root_of(start_of(e))] == SetKind::Open) continue;
+        (e == undirected(e) ? edges.up : edges.down).push_back(undirected(e));
+      }
+    }
+    mark_sets_by_sorting(edges, sets, found);
+  });
+  kinds = std::move(found);
+}
+
+}  // namespace
+
+bool has_edges(const Scene& scene, std::size_t face, const Corners& corners) {
+  if (scene.is_kept(face)) return true;
+  const Mesh& mesh = scene.mesh();
+  return !repeats_vertex(corners) && is_degenerate(mesh.vertex(face, 0), mesh.vertex(face, 1), mesh.vertex(face, 2));
+}
+
+std::vector<SetKind> find_closed_sets(const Scene& scene, const VertexSets& sets, const Executor& executor) {
+  std::vector<SetKind> kinds(sets.size(), SetKind::NoFaces);
+  const std::vector<EdgeList> left = cancel_nearby(scene, sets, executor, kinds);
+  if (std::all_of(left.begin(), left.end(), [](const EdgeList& edges) { return edges.empty(); })) return kinds;
+  mark_sets_by_sums(left, sets, executor, kinds);
+  mark_the_rest(left, sets, executor, kinds);
+  return kinds;
+}
+
+}  // namespace facemap
