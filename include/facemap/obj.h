@@ -46,10 +46,11 @@ class OBJ {
     std::vector<std::string> warnings;            ///< "file:line: text", one a cause
   };
 
-  /// Limits for files that are not to be trusted.
+  /// Limits of what reading may take; the first two are for files that are not to be trusted.
   struct Limits {
     std::uint64_t max_bytes = std::uint64_t{1} << 36;
     std::uint64_t max_faces = 0x7fffffff;  ///< triangles; a face id is an int32
+    int threads = 0;                       ///< that may read; 0: as many as the process may run at once
   };
 
   /// Reads `path` and the MTL files that it names (beside it; an absent or broken one is a warning).

@@ -11,25 +11,6 @@
 
 namespace facemap {
 
-namespace {
-
-void check_encoding(std::string_view text, const std::string& name) {
-  using Cause = LoadError::Cause;
-  if (text.starts_with("\xFE\xFF") || text.starts_with("\xFF\xFE")) {
-    throw LoadError(Cause::BadEncoding, name, 0, "UTF-16 text; OBJ is ASCII or UTF-8");
-  }
-  const std::size_t nul = text.find('\0');
-  if (nul != std::string_view::npos) {
-    const std::int64_t line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(nul), '\n');
-    throw LoadError(Cause::BadEncoding, name, line, "a NUL byte: not a text file, or UTF-16");
-  }
-  if (text.find('\n') == std::string_view::npos && text.find('\r') != std::string_view::npos) {
-    throw LoadError(Cause::BadEncoding, name, 0, "lines end in carriage returns alone");
-  }
-}
-
-}  // namespace
-
 OBJ::OBJ(ObjReader&& reader)
     : mesh_(std::move(reader.mesh)), materials_(std::move(reader.materials)), report_(std::move(reader.report)) {}
 
@@ -37,7 +18,6 @@ OBJ OBJ::load(const std::filesystem::path& path, const Limits& limits) {
   const FloatingPointMode mode;
   const std::string name = path.string();
   std::optional<FileMapping> file(std::in_place, path, limits.max_bytes);
-  check_encoding(file->text(), name);
   ObjReader reader(file->text(), name, path.has_parent_path() ? path.parent_path() : ".", limits);
   reader.read();
   file.reset();  // before finish() takes memory of its own
@@ -51,7 +31,6 @@ OBJ OBJ::parse(std::string_view text, const std::string& name, const std::filesy
   if (text.size() > limits.max_bytes) {
     throw LoadError(LoadError::Cause::TooLarge, name, 0, "more than " + std::to_string(limits.max_bytes) + " bytes");
   }
-  check_encoding(text, name);
   ObjReader reader(text, name, directory, limits);
   reader.read();
   reader.finish();

@@ -10,17 +10,6 @@ namespace {
 
 constexpr Corners kNoCorners = {kNoIndex, kNoIndex, kNoIndex};
 
-/// Appends `value` for the last `added` triangles to an array that stays empty while all values are `absent`.
-void append(std::vector<std::uint32_t>& values, const std::vector<Corners>& triangles, std::size_t added,
-            std::uint32_t value, std::uint32_t absent) {
-  if (values.empty()) {
-    if (value == absent) return;
-    reserve_pages(values, triangles.capacity());
-    values.assign(triangles.size() - added, absent);
-  }
-  for (std::size_t i = 0; i < added; ++i) values.push_back(value);
-}
-
 /// Appends the fan of the last polygon's indices to an array that is empty up to the first polygon that has some.
 template <std::uint32_t ObjCorner::*index>
 void append_fan(std::vector<Corners>& values, const std::vector<Corners>& triangles,
@@ -58,24 +47,21 @@ void ObjFaces::add(std::span<const ObjCorner> corners, std::int64_t line, bool i
   if (normals != kNoIndex || !mesh_.normal_corners.empty()) {
     append_fan<&ObjCorner::normal>(mesh_.normal_corners, mesh_.triangles, corners);
   }
-  append(mesh_.triangle_materials, mesh_.triangles, added, material_, kNoIndex);
   add_polygon_ids(added);
   if (corners.size() == 3) return;
 
-  const Fan fan{first, corners.size(), line};
   const auto position = [&](std::size_t i) -> const Vector& { return mesh_.positions[corners[i].vertex]; };
   if (!is_complete) {
-    waiting_.push_back(fan);
+    waiting_.push_back({first, corners.size(), line});
   } else if (corners.size() > 4 || !is_strictly_convex(position(0), position(1), position(2), position(3))) {
-    cut(fan);
+    cut(first, corners.size(), line);
   }
 }
 
-void ObjFaces::set_smoothing_group(std::uint32_t group) {
-  const std::size_t first = mesh_.triangles.size();
-  if (!smoothing_runs_.empty() && smoothing_runs_.back().first_triangle == first) smoothing_runs_.pop_back();
-  const std::uint32_t current = smoothing_runs_.empty() ? 0 : smoothing_runs_.back().group;
-  if (group != current) smoothing_runs_.push_back({first, group});
+void ObjFaces::set(std::vector<SmoothingRun>& runs, std::uint32_t value, std::size_t first, std::uint32_t absent) {
+  if (!runs.empty() && runs.back().first_triangle == first) runs.pop_back();
+  const std::uint32_t current = runs.empty() ? absent : runs.back().group;
+  if (value != current) runs.push_back({first, value});
 }
 
 void ObjFaces::add_polygon_ids(std::size_t triangle_count) {
@@ -92,11 +78,26 @@ void ObjFaces::add_polygon_ids(std::size_t triangle_count) {
 }
 
 void ObjFaces::finish() {
-  for (const Fan& fan : waiting_) cut(fan);
+  for (const Fan& fan : waiting_) cut(fan.first_triangle, fan.corner_count, fan.line);
   waiting_.clear();
+  fill_materials();
 }
 
-void ObjFaces::cut(const Fan& fan) {
+void ObjFaces::fill_materials() {
+  if (material_runs_.empty()) return;
+  std::vector<std::uint32_t>& materials = mesh_.triangle_materials;
+  reserve_pages(materials, mesh_.triangles.size());
+  std::uint32_t material = kNoIndex;
+  for (const SmoothingRun& run : material_runs_) {
+    materials.resize(run.first_triangle, material);
+    material = run.group;
+  }
+  materials.resize(mesh_.triangles.size(), material);
+  material_runs_ = {};
+}
+
+void ObjFaces::cut(std::size_t first_triangle, std::size_t corner_count, std::int64_t line) {
+  const Fan fan{first_triangle, corner_count, line};
   positions_.clear();
   for (std::size_t i = 0; i < fan.corner_count; ++i) {
     positions_.push_back(mesh_.positions[fan_corner(mesh_.triangles, fan.first_triangle, i)]);

@@ -25,15 +25,18 @@ class ObjFaces {
  public:
   ObjFaces(Mesh& mesh, ObjWarnings& warnings) : mesh_(mesh), warnings_(warnings) {}
 
-  /// For faces to come; 0 is no smoothing group.
-  void set_material(std::uint32_t material) { material_ = material; }
-  void set_smoothing_group(std::uint32_t group);
+  /// For the triangles from `first` on; calls ascend. kNoIndex is no material, 0 no smoothing group.
+  void set_material(std::uint32_t material, std::size_t first) { set(material_runs_, material, first, kNoIndex); }
+  void set_smoothing_group(std::uint32_t group, std::size_t first) { set(smoothing_runs_, group, first, 0); }
 
   /// Adds a face of 3 corners or more. `is_complete`: all its positions have been read; otherwise it is cut
   /// into triangles by finish().
   void add(std::span<const ObjCorner> corners, std::int64_t line, bool is_complete);
 
-  /// Cuts the polygons that had to wait. All indices must be in range by now.
+  /// Cuts a polygon that stands in the mesh as a fan into the right triangles. Its indices must be in range.
+  void cut(std::size_t first_triangle, std::size_t corner_count, std::int64_t line);
+
+  /// Cuts the polygons that had to wait, and fills Mesh::triangle_materials. All indices must be in range by now.
   void finish();
 
   std::int64_t self_intersecting() const { return self_intersecting_; }
@@ -48,16 +51,17 @@ class ObjFaces {
     std::int64_t line;
   };
 
+  static void set(std::vector<SmoothingRun>& runs, std::uint32_t value, std::size_t first, std::uint32_t absent);
   void add_polygon_ids(std::size_t triangle_count);
-  void cut(const Fan& fan);
+  void fill_materials();
   void replace_fan(const Fan& fan, std::vector<Corners>& triangles);
 
   Mesh& mesh_;
   ObjWarnings& warnings_;
-  std::uint32_t material_ = kNoIndex;
   std::uint32_t polygon_count_ = 0;
   std::int64_t self_intersecting_ = 0;
   std::vector<SmoothingRun> smoothing_runs_;
+  std::vector<SmoothingRun> material_runs_;  ///< materials in the place of groups
   std::vector<Fan> waiting_;
   PolygonCutter cutter_;
   std::vector<Vector> positions_;       ///< of the polygon being cut

@@ -19,6 +19,23 @@ bool at_end(const char* at) { return *at == '\n' || *at == '#'; }
 
 std::string_view token_at(const char* at) { return {at, static_cast<std::size_t>(skip_token(at) - at)}; }
 
+bool is_utf_16(std::string_view text) { return text.starts_with("\xFE\xFF") || text.starts_with("\xFF\xFE"); }
+
+void check_encoding(std::string_view text, const std::string& name) {
+  using Cause = LoadError::Cause;
+  if (is_utf_16(text)) {
+    throw LoadError(Cause::BadEncoding, name, 0, "UTF-16 text; OBJ is ASCII or UTF-8");
+  }
+  const std::size_t nul = text.find('\0');
+  if (nul != std::string_view::npos) {
+    const std::int64_t line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(nul), '\n');
+    throw LoadError(Cause::BadEncoding, name, line, "a NUL byte: not a text file, or UTF-16");
+  }
+  if (text.find('\n') == std::string_view::npos && text.find('\r') != std::string_view::npos) {
+    throw LoadError(Cause::BadEncoding, name, 0, "lines end in carriage returns alone");
+  }
+}
+
 std::string quoted(std::string_view text) { return "\"" + printable(text) + "\""; }
 
 }  // namespace
@@ -27,19 +44,51 @@ ObjReader::ObjReader(std::string_view text, std::string name, const std::filesys
                      const OBJ::Limits& limits)
     : name_(std::move(name)),
       limits_(limits),
+      text_(text),
       lines_(text),
       warnings_(name_),
       mtl_(directory, limits.max_bytes),
-      faces_(mesh, warnings_) {
-  const ObjSizes sizes = estimate_sizes(text);
+      faces_(mesh, warnings_) {}
+
+void ObjReader::read() {
+  if (read_in_chunks()) return;
+  check_encoding(text_, name_);
+  const ObjSizes sizes = estimate_sizes(text_);
   reserve_pages(mesh.positions, sizes.vertices);
   reserve_pages(mesh.texture_coordinates, sizes.texture_coordinates);
   reserve_pages(mesh.normals, sizes.normals);
-  reserve_pages(mesh.triangles, std::min<std::uint64_t>(sizes.triangles, limits.max_faces));
+  reserve_pages(mesh.triangles, std::min<std::uint64_t>(sizes.triangles, limits_.max_faces));
+  while (lines_.next()) {
+    line_ = lines_.number();
+    read_statement();
+  }
 }
 
-void ObjReader::read() {
-  while (lines_.next()) read_statement();
+/// False if the text is too short for it, or odd in some way: read() then says in which.
+bool ObjReader::read_in_chunks() {
+  if (limits_.threads == 1 || text_.size() < ObjChunks::kLeastBytes) return false;
+  if (is_utf_16(text_) || text_.find('\n') == std::string_view::npos) return false;
+  executor_.emplace(limits_.threads);
+  if (executor_->threads() > 1 && chunks_.read(text_, *executor_) && chunks_.triangle_count() <= limits_.max_faces) {
+    return true;
+  }
+  chunks_ = ObjChunks();
+  executor_.reset();
+  return false;
+}
+
+void ObjReader::merge_chunks() {
+  chunks_.move_to(mesh, *executor_);
+  report.polygons = chunks_.polygon_count();
+  chunks_.visit(
+      mesh, *executor_,
+      [this](std::size_t first, std::size_t corner_count, std::int64_t line) { faces_.cut(first, corner_count, line); },
+      [this](const char* statement, std::int64_t line, std::size_t next_triangle) {
+        line_ = line;
+        next_triangle_ = next_triangle;
+        read_other_statement(statement);
+      });
+  chunks_ = ObjChunks();
 }
 
 void ObjReader::read_statement() {
@@ -50,16 +99,18 @@ void ObjReader::read_statement() {
     if (at[1] == 't' && ends_token(at[2])) return read_texture_coordinates(at + 2);
   }
   if (at[0] == 'f' && ends_token(at[1])) return read_face(at + 1);
-  if (!at_end(at)) read_other_statement(at);
+  if (at_end(at)) return;
+  next_triangle_ = mesh.triangles.size();
+  read_other_statement(at);
 }
 
 void ObjReader::read_other_statement(const char* at) {
   const std::string_view keyword = token_at(at);
   at += keyword.size();
   if (keyword == "usemtl") {
-    faces_.set_material(mtl_.use(rest_of_line(at), lines_.number()));
+    faces_.set_material(mtl_.use(rest_of_line(at), line_), next_triangle_);
   } else if (keyword == "mtllib") {
-    mtl_.read_libraries(rest_of_line(at), lines_.number(), warnings_);
+    mtl_.read_libraries(rest_of_line(at), line_, warnings_);
   } else if (keyword == "s") {
     read_smoothing_group(at);
   } else if (keyword == "o") {
@@ -89,7 +140,7 @@ void ObjReader::read_vertex(const char* at) {
 void ObjReader::read_colour(const char* at) {
   float extras[4];
   const int count = read_floats(at, extras, 4);
-  if (count == 2) warnings_.add(lines_.number(), "v with 5 numbers, the last two ignored");
+  if (count == 2) warnings_.add(line_, "v with 5 numbers, the last two ignored");
   if (count < 3) {
     if (!mesh.colours.empty()) mesh.colours.push_back(kWhite);
     return;
@@ -98,7 +149,7 @@ void ObjReader::read_colour(const char* at) {
   const Vector colour(rgb[0], rgb[1], rgb[2]);
   const Vector clamped(std::clamp(colour.x, 0.0f, 1.0f), std::clamp(colour.y, 0.0f, 1.0f),
                        std::clamp(colour.z, 0.0f, 1.0f));
-  if (clamped != colour) warnings_.add(lines_.number(), "vertex colour outside 0..1, clamped");
+  if (clamped != colour) warnings_.add(line_, "vertex colour outside 0..1, clamped");
   mesh.colours.resize(mesh.positions.size() - 1, kWhite);
   mesh.colours.push_back(clamped);
 }
@@ -176,11 +227,11 @@ void ObjReader::read_face(const char* at) {
     fail(LoadError::Cause::TooLarge, "more than " + std::to_string(limits_.max_faces) + " triangles");
   }
   ++report.polygons;
-  faces_.add(corners_, lines_.number(), is_complete_);
+  faces_.add(corners_, line_, is_complete_);
 }
 
 void ObjReader::note_forward(std::int64_t index, IndexKind& kind) {
-  if (kind.forward.empty() || index > kind.forward.back().index) kind.forward.push_back({index, lines_.number()});
+  if (kind.forward.empty() || index > kind.forward.back().index) kind.forward.push_back({index, line_});
   is_complete_ = false;
 }
 
@@ -201,11 +252,11 @@ void ObjReader::read_smoothing_group(const char* at) {
   if (!is_off) {
     const char* const end = scan_index(group.data(), number);
     if (end != group.data() + group.size() || number < 0 || number > UINT32_MAX) {
-      warnings_.add(lines_.number(), "smoothing group is not a number, taken for off", group);
+      warnings_.add(line_, "smoothing group is not a number, taken for off", group);
       number = 0;
     }
   }
-  faces_.set_smoothing_group(static_cast<std::uint32_t>(number));
+  faces_.set_smoothing_group(static_cast<std::uint32_t>(number), next_triangle_);
 }
 
 const char* ObjReader::read_float(const char* at, float& value) {
@@ -225,7 +276,7 @@ int ObjReader::read_floats(const char* at, float* values, int most) {
     if (count < most) {
       values[count++] = value;
     } else {
-      warnings_.add(lines_.number(), "more numbers than the statement has, ignored");
+      warnings_.add(line_, "more numbers than the statement has, ignored");
     }
   }
   return count;
@@ -242,10 +293,11 @@ void ObjReader::ignore(std::string_view keyword) {
     }
   }
   const bool is_last = report.ignored.size() + 1 == kMaxKeywords;
-  report.ignored.push_back({is_last ? kOtherKeywords : statement, 1, lines_.number()});
+  report.ignored.push_back({is_last ? kOtherKeywords : statement, 1, line_});
 }
 
 void ObjReader::finish() {
+  if (executor_) merge_chunks();
   report.vertices = static_cast<std::int64_t>(mesh.positions.size());
   report.texture_coordinates = static_cast<std::int64_t>(mesh.texture_coordinates.size());
   report.normals = static_cast<std::int64_t>(mesh.normals.size());
@@ -268,7 +320,7 @@ void ObjReader::finish() {
 }
 
 void ObjReader::fail(LoadError::Cause cause, const std::string& reason) const {
-  throw LoadError(cause, name_, lines_.number(), reason);
+  throw LoadError(cause, name_, line_, reason);
 }
 
 void ObjReader::fail_number(const char* token) const {

@@ -6,10 +6,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "parallel/executor.h"
+#include "scene/obj_chunks.h"
 #include "scene/obj_faces.h"
 #include "scene/obj_lines.h"
 #include "scene/obj_materials.h"
@@ -17,15 +20,16 @@
 
 namespace facemap {
 
-/// Reads the statements of an OBJ text, one line after the other, into a mesh.
+/// Reads the statements of an OBJ text into a mesh: one line after the other, or a large text without oddities in
+/// chunks by several threads, with the same outcome.
 class ObjReader {
  public:
   ObjReader(std::string_view text, std::string name, const std::filesystem::path& directory, const OBJ::Limits& limits);
 
-  /// Reads all statements. Throws LoadError, as does finish().
+  /// Reads all statements; the text is not needed any more. Throws LoadError, as does finish().
   void read();
 
-  /// Checks what only the whole file can show and completes the members below; the text is not needed any more.
+  /// Checks what only the whole file can show and completes the members below.
   void finish();
 
   Mesh mesh;
@@ -44,6 +48,8 @@ class ObjReader {
     std::vector<ForwardIndex> forward;
   };
 
+  bool read_in_chunks();
+  void merge_chunks();
   void read_statement();
   void read_other_statement(const char* at);
   void read_vertex(const char* at);
@@ -66,10 +72,15 @@ class ObjReader {
 
   std::string name_;
   OBJ::Limits limits_;
+  std::string_view text_;  ///< until read() is done
   ObjLines lines_;
+  std::int64_t line_ = 0;          ///< the statement's that is being read
+  std::size_t next_triangle_ = 0;  ///< the first that comes after it; for statements that are no faces
   ObjWarnings warnings_;
   ObjMaterials mtl_;
   ObjFaces faces_;
+  std::optional<Executor> executor_;  ///< if there are chunks
+  ObjChunks chunks_;
   std::vector<ObjCorner> corners_;  ///< of the face being read
   bool is_complete_ = true;         ///< no index of the face being read points forward
   IndexKind vertex_indices_{"vertex", {}};
