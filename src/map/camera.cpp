@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "map/face_planes.h"
+#include "map/nearest_hit.h"
 #include "map/texels.h"
 #include "simd/floating_point_mode.h"
 
@@ -28,64 +29,6 @@ struct FilterDirection {
   }
 };
 
-// The nearest of the faces met so far, by exact comparison.
-class Nearest {
- public:
-  Nearest(const Scene& scene, const Vector& O, const Vector& d, Counters* counters)
-      : scene_(scene),
-        O_(O),
-        d_(d),
-        length_(std::sqrt(double(d.x) * d.x + double(d.y) * d.y + double(d.z) * d.z)),
-        counters_(counters) {}
-
-  void meet(std::uint32_t id, int side, bool strictly_inside) {
-    const Triangle face = triangle_of(scene_, id);
-    const TruePoint point{O_, d_, face, side};
-    const Tracked t = ray_parameter(point);
-    const int order = hit_ ? compare(t, face, side) : -1;
-    if (order == 0) {
-      hit_.tied = true;
-      // Wins: the face turned towards the camera, then the lower id.
-      const bool wins = side != hit_.side ? side < hit_.side : static_cast<FaceId>(id) < hit_.face;
-      if (!wins) return;
-    } else if (order > 0) {
-      return;
-    } else {
-      hit_.tied = false;
-    }
-    hit_.face = static_cast<FaceId>(id);
-    hit_.side = side;
-    hit_.strictly_inside = strictly_inside;
-    t_ = t;
-    face_ = face;
-  }
-
-  // Upper bound of the distance to the nearest hit, world units.
-  double reach() const { return hit_ ? (t_.value + t_.error) * length_ * (1 + 0x1p-40) : HUGE_VAL; }
-
-  Camera::Hit result() const {
-    Camera::Hit hit = hit_;
-    if (hit) hit.depth = static_cast<float>(sharp_ray_parameter({O_, d_, face_, hit.side}, t_) * length_);
-    return hit;
-  }
-
- private:
-  // Sign of the new face's distance minus the best one's.
-  int compare(const Tracked& t, const Triangle& face, int side) const {
-    const int sign = (t - t_).sign();
-    if (sign == 1 || sign == -1) return sign;
-    return compare_depth(face, side, face_, hit_.side, O_, d_, counters_);
-  }
-
-  const Scene& scene_;
-  Vector O_, d_;
-  double length_;
-  Counters* counters_;
-  Camera::Hit hit_;
-  Tracked t_;
-  Triangle face_{};
-};
-
 }  // namespace
 
 Camera::Camera(const Scene& scene, const SpaceVector& frame, const Options& options)
@@ -103,7 +46,7 @@ Camera::Hit Camera::nearest(const Vector& direction, Counters* counters) const {
   const std::optional<Texel> texel = texel_of(DVector(direction));
   if (!texel) return {};  // nor for a direction that is zero or not finite
   const FilterDirection filter(direction);
-  Nearest best(scene(), position(), direction, counters);
+  NearestHit best(scene(), position(), direction, counters);
   const std::span<const std::uint32_t> ids = faces_at(texel->x, texel->y);
   simd::Verdict verdicts[kChunk];
   for (std::size_t first = 0; first < ids.size(); first += kChunk) {
@@ -124,7 +67,7 @@ Camera::Hit Camera::nearest(const Vector& direction, Counters* counters) const {
       if (covering.hit) best.meet(id, side, covering.strictly_inside);
     }
   }
-  return best.result();
+  return best.with_depth();
 }
 
 SurfacePoint Camera::surface_point(const Vector& direction, const Hit& hit) const {

@@ -1,0 +1,198 @@
+#include "picture/nearest_raster.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "map/face_planes.h"
+#include "math/exact_sign.h"
+#include "picture/nearest_contests.h"
+#include "picture/nearest_queues.h"
+#include "simd/nearest_draw.h"
+
+namespace facemap {
+namespace {
+
+// Faces whose boxes are found before they are drawn: their vertices are still in the cache then.
+constexpr std::size_t kChunk = 4096;
+
+// Bands of rows a thread, so that crowded ones even out; each costs a look at every box.
+constexpr int kBandsPerThread = 4;
+
+constexpr std::size_t kLeastVertices = 1 << 14;  // of a task
+
+class PlaneRaster {
+ public:
+  PlaneRaster(const Scene& scene, const SampleGrid& grid, const PlaneView& view, const Executor& executor)
+      : scene_(scene), grid_(grid), view_(view), executor_(executor) {
+    const Mesh& mesh = scene.mesh();
+    source_ = {mesh.triangles.data()->data(), &mesh.positions.data()->x};
+    points_ = std::make_unique_for_overwrite<float[]>(2 * (mesh.positions.size() + simd::kVertexRoom));
+    w_ = std::make_unique<float[]>(grid.count());
+    keeps_all_ = scene.kept_faces().size() == scene.face_count();
+  }
+
+  NearestFaces run(Counters* counters) {
+    nearest_.faces.assign(grid_.count(), kNoFace);
+    project();
+    if (executor_.threads() == 1) {
+      draw_all_at_once();
+    } else {
+      draw_in_bands();
+    }
+    finish(counters);
+    return std::move(nearest_);
+  }
+
+ private:
+  struct Band {
+    int first_row, last_row;
+    simd::Contests contests;
+    std::vector<std::uint32_t> loose;
+    Counters counters;
+  };
+
+  void project() {
+    for_ranges(executor_, scene_.mesh().positions.size(), kLeastVertices,
+               [&](std::size_t first, std::size_t last, int) {
+                 simd::project_vertices(source_.positions + 3 * first, last - first, view_.vertices,
+                                        points_.get() + 2 * first);
+               });
+  }
+
+  void find_boxes(std::size_t first, BoxQueues& queues) const {
+    const std::size_t count = std::min(kChunk, scene_.face_count() - first);
+    simd::find_boxes(source_.triangles, first, count, points_.get(), view_.boxes, queues.fresh());
+    if (keeps_all_) return;
+    for (int q = 0; q < BoxQueues::kQueues; ++q) drop_odd_faces(queues[q]);
+  }
+
+  void drop_odd_faces(simd::BoxQueue& queue) const {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < queue.size; ++i) {
+      queue.faces[n] = queue.faces[i];
+      queue.x0[n] = queue.x0[i];
+      queue.x1[n] = queue.x1[i];
+      queue.y0[n] = queue.y0[i];
+      queue.y1[n] = queue.y1[i];
+      n += scene_.is_kept(queue.faces[i]);
+    }
+    queue.size = n;
+  }
+
+  void draw_all_at_once() {
+    bands_.push_back({0, grid_.rows() - 1, {}, {}, {}});
+    BoxQueues queues(kChunk);
+    for (std::size_t first = 0; first < scene_.face_count(); first += kChunk) {
+      find_boxes(first, queues);
+      for (int q = 0; q < BoxQueues::kQueues; ++q) draw(q, queues[q], bands_[0]);
+    }
+  }
+
+  void draw_in_bands() {
+    const std::size_t chunks = (scene_.face_count() + kChunk - 1) / kChunk;
+    std::vector<WaitingBoxes> waiting(chunks);
+    executor_.for_each(chunks, [&](std::size_t i, int) {
+      BoxQueues queues(kChunk);
+      find_boxes(i * kChunk, queues);
+      waiting[i].append(queues);
+    });
+    const int rows = grid_.rows(), count = std::min(rows, kBandsPerThread * executor_.threads());
+    for (int i = 0; i < count; ++i) {
+      const auto row = [&](int k) { return static_cast<int>(static_cast<std::int64_t>(rows) * k / count); };
+      bands_.push_back({row(i), row(i + 1) - 1, {}, {}, {}});
+    }
+    executor_.for_each(bands_.size(), [&](std::size_t i, int) { draw_band(waiting, bands_[i]); });
+  }
+
+  void draw_band(const std::vector<WaitingBoxes>& waiting, Band& band) {
+    BoxQueues queues(kChunk);
+    for (const WaitingBoxes& boxes : waiting) {
+      queues.fresh();
+      for (int q = 0; q < BoxQueues::kQueues; ++q) {
+        boxes.take(q, band.first_row, band.last_row, queues[q]);
+        draw(q, queues[q], band);
+      }
+    }
+  }
+
+  simd::RasterTarget target(Band& band) {
+    return {w_.get(),       nearest_.faces.data(), static_cast<std::uint32_t>(grid_.columns()),
+            band.first_row, band.last_row,         &band.contests};
+  }
+
+  void draw(int queue, const simd::BoxQueue& boxes, Band& band) {
+    for (std::size_t i = 0; i < boxes.size; i += simd::kBlockFaces) {
+      const simd::FaceBoxes block = {boxes.faces + i, boxes.x0 + i, boxes.x1 + i,
+                                     boxes.y0 + i,    boxes.y1 + i, std::min(simd::kBlockFaces, boxes.size - i)};
+      if (queue < simd::kSmallQueues) {
+        draw_small(block, band);
+      } else {
+        draw_large(block, band);
+      }
+    }
+  }
+
+  void draw_small(const simd::FaceBoxes& boxes, Band& band) {
+    simd::FaceBlock block;
+    simd::set_up_faces(source_, view_.planes, view_.first_u, view_.first_v, boxes, block);
+    simd::draw_faces(block, boxes, target(band));
+    for (std::size_t i = 0; i < boxes.count; ++i) {
+      if (block.is_unsure[i]) draw_edge_on(boxes.faces[i], box(boxes, i), band);
+    }
+  }
+
+  void draw_large(const simd::FaceBoxes& boxes, Band& band) {
+    simd::LargeFace faces[simd::kBlockFaces];
+    simd::set_up_large(source_, view_.planes, boxes.faces, boxes.count, nullptr, faces);
+    for (std::size_t i = 0; i < boxes.count; ++i) {
+      if (faces[i].is_unsure) {
+        draw_edge_on(boxes.faces[i], box(boxes, i), band);
+      } else {
+        simd::draw_large(faces[i], boxes.faces[i], box(boxes, i), view_.first_u, view_.first_v, target(band));
+      }
+    }
+  }
+
+  // A face whose side doubles cannot tell: nothing if it is seen exactly edge-on.
+  void draw_edge_on(std::uint32_t id, const simd::SampleBox& box, Band& band) {
+    const auto s = static_cast<std::int8_t>(side(triangle_of(scene_, id), grid_.frame.position()));
+    if (s == 0) return;
+    simd::LargeFace face;
+    simd::set_up_large(source_, view_.planes, &id, 1, &s, &face);
+    simd::draw_large(face, id, box, view_.first_u, view_.first_v, target(band));
+  }
+
+  static simd::SampleBox box(const simd::FaceBoxes& boxes, std::size_t i) {
+    return {boxes.x0[i], boxes.x1[i], boxes.y0[i], boxes.y1[i]};
+  }
+
+  void finish(Counters* counters) {
+    executor_.for_each(bands_.size(), [&](std::size_t i, int) {
+      Band& band = bands_[i];
+      resolve_contests(scene_, grid_, target(band), band.loose, &band.counters);
+    });
+    for (const Band& band : bands_) {
+      nearest_.loose.insert(nearest_.loose.end(), band.loose.begin(), band.loose.end());
+      if (counters != nullptr) *counters += band.counters;
+    }
+  }
+
+  const Scene& scene_;
+  const SampleGrid& grid_;
+  const PlaneView& view_;
+  const Executor& executor_;
+  simd::FaceSource source_;
+  bool keeps_all_ = false;
+  std::unique_ptr<float[]> points_, w_;
+  NearestFaces nearest_;
+  std::vector<Band> bands_;
+};
+
+}  // namespace
+
+NearestFaces draw_plane_view(const Scene& scene, const SampleGrid& grid, const PlaneView& view,
+                             const Executor& executor, Counters* counters) {
+  return PlaneRaster(scene, grid, view, executor).run(counters);
+}
+
+}  // namespace facemap

@@ -1,0 +1,120 @@
+#include "picture/nearest_faces.h"
+
+#include <facemap/camera.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "simd/target.h"
+#include "support/scenes.h"
+
+namespace {
+
+using facemap::Camera;
+using facemap::DVector;
+using facemap::Executor;
+using facemap::Mesh;
+using facemap::NearestFaces;
+using facemap::Projection;
+using facemap::ProjectionKind;
+using facemap::SampleGrid;
+using facemap::Scene;
+using facemap::SpaceVector;
+using facemap::Vector;
+
+constexpr double kDegree = 0.017453292519943295;
+
+Camera::Options options_of(const Projection& projection) {
+  Camera::Options options;
+  options.projection = projection.kind();
+  options.field_angle = projection.field_angle();
+  options.width = projection.width();
+  options.height = projection.height();
+  return options;
+}
+
+// What Camera::nearest says of every sample.
+NearestFaces asked_one_by_one(const Scene& scene, const SampleGrid& grid) {
+  const Camera camera(scene, grid.frame, options_of(grid.projection));
+  NearestFaces nearest;
+  for (int row = 0; row < grid.rows(); ++row) {
+    for (int column = 0; column < grid.columns(); ++column) {
+      const Camera::Hit hit = camera.nearest(grid.direction(column, row));
+      if (hit && (hit.tied || !hit.strictly_inside)) {
+        nearest.loose.push_back(static_cast<std::uint32_t>(nearest.faces.size()));
+      }
+      nearest.faces.push_back(hit.face);
+    }
+  }
+  return nearest;
+}
+
+class Targets {
+ public:
+  Targets() : before_(facemap::simd::active_target()) {}
+  ~Targets() { facemap::simd::set_active_target(before_); }
+  std::vector<facemap::simd::Target> all = facemap::simd::supported_targets();
+
+ private:
+  facemap::simd::Target before_;
+};
+
+std::string first_difference(const NearestFaces& is, const NearestFaces& should, int columns) {
+  for (std::size_t i = 0; i < should.faces.size(); ++i) {
+    if (is.faces[i] == should.faces[i]) continue;
+    return "sample " + std::to_string(i % columns) + ", " + std::to_string(i / columns) + ": face " +
+           std::to_string(is.faces[i]) + " instead of " + std::to_string(should.faces[i]);
+  }
+  return "";
+}
+
+void expect_as_asked(const Mesh& mesh, const SampleGrid& grid, const std::string& what) {
+  const Scene scene(mesh);
+  const NearestFaces should = asked_one_by_one(scene, grid);
+  Targets targets;
+  std::optional<facemap::Counters> counted;
+  for (const auto target : targets.all) {
+    facemap::simd::set_active_target(target);
+    for (const int threads : {1, 2, 3}) {
+      facemap::Counters counters;
+      const NearestFaces is = find_nearest_faces(scene, grid, Executor(threads), &counters);
+      const std::string where = what + ", " + facemap::simd::name_of(target) + ", threads " + std::to_string(threads);
+      ASSERT_EQ(first_difference(is, should, grid.columns()), "") << where;
+      ASSERT_EQ(is.faces.size(), should.faces.size()) << where;
+      ASSERT_EQ(is.loose, should.loose) << where;
+      if (!counted) counted = counters;
+      ASSERT_EQ(counters.by_float, counted->by_float) << where;
+      ASSERT_EQ(counters.by_double, counted->by_double) << where;
+      ASSERT_EQ(counters.by_exact, counted->by_exact) << where;
+    }
+  }
+}
+
+SpaceVector looking(const Vector& from, const Vector& at) {
+  if (from == at) return SpaceVector::looking_along(from, DVector(0.3, -0.2, -1));
+  return SpaceVector::looking_along(from, DVector(at) - DVector(from));
+}
+
+SampleGrid plane_grid(const SpaceVector& frame, double degrees, int width, int height, int per_side = 1) {
+  return {frame, Projection(ProjectionKind::Plane, degrees * kDegree, width, height), per_side};
+}
+
+TEST(NearestFaces, OfRandomScenesAreThoseOfTheCamera) {
+  Random random(20260001);
+  for (int i = 0; i < 400; ++i) {
+    const test_scenes::TestScene scene = test_scenes::make_any_scene(random, 120);
+    const Vector from = test_scenes::make_origin(scene, random);
+    const Vector at = random.chance(0.8) ? scene.centre : test_scenes::make_origin(scene, random);
+    const int width = random.between(1, 70), height = random.between(1, 70);
+    const double fields[] = {0.01, 10, 50, 50, 90, 130, 170, 179};
+    const double degrees = fields[random.below(8)];
+    const SampleGrid grid = plane_grid(looking(from, at), degrees, width, height, random.chance(0.2) ? 2 : 1);
+    expect_as_asked(scene.mesh, grid,
+                    "scene " + std::to_string(i) + " (" + scene.name + "), " + std::to_string(degrees) + " degrees, " +
+                        std::to_string(width) + " x " + std::to_string(height));
+    if (HasFatalFailure()) return;
+  }
+}
+
+}  // namespace
