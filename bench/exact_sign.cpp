@@ -75,7 +75,7 @@ void measure(benchmark::State& state, Case kind, Ask ask) {
     next = (next + 1) % kQuestions;
   }
   const auto asked = static_cast<double>(counters.by_double + counters.by_exact);
-  state.counters["by_exact"] = static_cast<double>(counters.by_exact) / asked;
+  if (asked > 0) state.counters["by_exact"] = static_cast<double>(counters.by_exact) / asked;
 }
 
 void side(benchmark::State& state, Case kind) {
@@ -114,6 +114,22 @@ void blocks(benchmark::State& state, Case kind) {
   });
 }
 
+void ray_parameter(benchmark::State& state) {
+  measure(state, Case::Apart,
+          [](const Question& q, facemap::Counters*) { return facemap::ray_parameter(q.point).value; });
+}
+
+void ray_parameter_and_offset(benchmark::State& state) {
+  measure(state, Case::Apart, [](const Question& q, facemap::Counters*) {
+    return facemap::offset_from(q.L, q.point, facemap::ray_parameter(q.point)).x;
+  });
+}
+
+void is_degenerate(benchmark::State& state) {
+  measure(state, Case::Apart,
+          [](const Question& q, facemap::Counters*) { return facemap::is_degenerate(q.G[0], q.G[1], q.G[2]); });
+}
+
 BENCHMARK_CAPTURE(side, apart, Case::Apart);
 BENCHMARK(side_in_plane);
 BENCHMARK(covers);
@@ -124,6 +140,9 @@ BENCHMARK_CAPTURE(blocks, apart, Case::Apart);
 BENCHMARK_CAPTURE(blocks, coplanar, Case::Coplanar);
 BENCHMARK_CAPTURE(blocks, coplanar_far_from_origin, Case::CoplanarFarFromOrigin);
 BENCHMARK_CAPTURE(blocks, coplanar_with_tiny_numbers, Case::CoplanarWithTinyNumbers);
+BENCHMARK(ray_parameter);
+BENCHMARK(ray_parameter_and_offset);
+BENCHMARK(is_degenerate);
 
 }  // namespace
 

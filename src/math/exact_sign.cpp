@@ -13,11 +13,12 @@
 namespace facemap {
 namespace {
 
+// Relative error of a parameter that plain doubles may leave: far below what a sharp depth or direction takes.
+constexpr double kPlainlySharp = 0x1p-43;
+
 constexpr const char* kNoPoint = "the ray of a surface point does not meet the plane of its face";
 
 // ---- which inputs an expression has ----------------------------------------------------------------------
-
-ExponentRange lengths_of(const Triangle& f) { return ExponentRange::of(f[0], f[1], f[2]); }
 
 ExponentRange lengths_of(const Triangle& f, const Vector& O) { return ExponentRange::of(f[0], f[1], f[2], O); }
 
@@ -93,6 +94,17 @@ bool blocks_staged(const Triangle& G, int s_G, const Vector& L, const Point& poi
                      [&](const auto& numbers) { return blocks_in(numbers, G, s_G, L, point); });
 }
 
+// Sign of depth_difference.
+int depth_sign(const Triangle& face1, const Triangle& face2, const Vector& O, const Vector& d, Counters* counters) {
+  const int in_double = plain::depth_difference(face1, face2, O, d);
+  count(in_double != kUnknownSign, counters);
+  if (in_double != kUnknownSign) return in_double;
+  ExponentRange lengths = lengths_of(face1, O);
+  for (const Vector& corner : face2) lengths.include(corner);
+  return in_integers(lengths, ExponentRange::of(d),
+                     [&](const auto& numbers) { return depth_difference(numbers, face1, face2, O, d).sign(); });
+}
+
 // ---- quotients ------------------------------------------------------------------------------------------
 
 bool is_finite(const Vector& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
@@ -147,26 +159,26 @@ DVector exact_offset(const Point& point, const Vector& L) {
   });
 }
 
-// Whether the three components are known to within kDirectionError of their length.
-bool is_sharp(const Tracked& x, const Tracked& y, const Tracked& z) {
-  const double length = std::sqrt(x.value * x.value + y.value * y.value + z.value * z.value);
-  const double error = (x.error + y.error + z.error) * (1 + Tracked::kInflation);
+// Whether an offset that is off by at most `error` is known to within kDirectionError of its length.
+bool is_sharp(const DVector& offset, double error) {
+  const double length = std::sqrt(offset.x * offset.x + offset.y * offset.y + offset.z * offset.z);
   return error <= 0.5 * kDirectionError * length && length > 0x1p-400 && length < 0x1p400;
+}
+
+Tracked tracked_ray_parameter(const TruePoint& point) {
+  constexpr TrackedNumbers numbers;
+  const Vec3<Tracked> n = normal(numbers, point.face);
+  return quotient(determinant(numbers, point.face, n, point.K), dot(n, numbers.direction(point.d)));
 }
 
 }  // namespace
 
 bool is_degenerate(const Vector& a, const Vector& b, const Vector& c) {
   const Triangle f{a, b, c};
-  const Vec3<Tracked> n = normal(TrackedNumbers{}, f);
-  const int x = n.x.sign(), y = n.y.sign(), z = n.z.sign();
-  for (int sign : {x, y, z}) {
-    if (sign == 1 || sign == -1) return false;
-  }
-  if (x == 0 && y == 0 && z == 0) return true;
-  return in_integers(lengths_of(f), ExponentRange(), [&](const auto& numbers) {
-    const auto e = normal(numbers, f);
-    return e.x.sign() == 0 && e.y.sign() == 0 && e.z.sign() == 0;
+  if (plain::has_area(f)) return false;
+  return in_integers(ExponentRange::of(a, b, c), ExponentRange(), [&](const auto& numbers) {
+    const auto n = normal(numbers, f);
+    return n.x.sign() == 0 && n.y.sign() == 0 && n.z.sign() == 0;
   });
 }
 
@@ -192,14 +204,7 @@ Covering covers(const Triangle& face, int s, const Vector& O, const Vector& d, C
 
 int compare_depth(const Triangle& face1, int s1, const Triangle& face2, int s2, const Vector& O, const Vector& d,
                   Counters* counters) {
-  const int in_double = plain::depth_difference(face1, face2, O, d);
-  count(in_double != kUnknownSign, counters);
-  if (in_double != kUnknownSign) return s1 * s2 * in_double;
-  ExponentRange lengths = lengths_of(face1, O);
-  for (const Vector& corner : face2) lengths.include(corner);
-  return s1 * s2 * in_integers(lengths, ExponentRange::of(d), [&](const auto& numbers) {
-           return depth_difference(numbers, face1, face2, O, d).sign();
-         });
+  return s1 * s2 * depth_sign(face1, face2, O, d, counters);
 }
 
 bool blocks(const Triangle& G, int s_G, const Vector& L, const TruePoint& point, Counters* counters) {
@@ -211,15 +216,8 @@ bool blocks(const Triangle& G, int s_G, const Vector& L, const GivenPoint& point
 }
 
 Tracked ray_parameter(const TruePoint& point) {
-  constexpr TrackedNumbers numbers;
-  const Vec3<Tracked> n = normal(numbers, point.face);
-  const Tracked w = dot(n, numbers.direction(point.d)), delta = determinant(numbers, point.face, n, point.K);
-  const double t = delta.value / w.value;
-  // |t - true| <= (|delta error| + |t| |w error|) / (|w| - |w error|), and one rounding.
-  const double slack = std::fabs(w.value) - w.error;
-  if (!(slack > 0)) return {t, HUGE_VAL};
-  return {t, (delta.error + std::fabs(t) * w.error) / slack * (1 + Tracked::kInflation) +
-                 std::fabs(t) * Tracked::kHalfUlp + Tracked::kUnderflow};
+  const Tracked t = plain::ray_parameter(point);
+  return t.error < kPlainlySharp * std::fabs(t.value) ? t : tracked_ray_parameter(point);
 }
 
 double sharp_ray_parameter(const TruePoint& point, const Tracked& t) {
@@ -233,9 +231,12 @@ double sharp_ray_parameter(const TruePoint& point, const Tracked& t) {
 }
 
 DVector offset_from(const Vector& L, const TruePoint& point, const Tracked& t) {
+  DVector offset;
+  if (is_sharp(offset, plain::offset(L, point, t, &offset))) return offset;
   constexpr TrackedNumbers numbers;
-  const Vec3<Tracked> D = numbers.difference(point.K, L) + t * numbers.direction(point.d);
-  if (is_sharp(D.x, D.y, D.z)) return {D.x.value, D.y.value, D.z.value};
+  const Vec3<Tracked> D = numbers.difference(point.K, L) + tracked_ray_parameter(point) * numbers.direction(point.d);
+  offset = {D.x.value, D.y.value, D.z.value};
+  if (is_sharp(offset, (D.x.error + D.y.error + D.z.error) * (1 + Tracked::kInflation))) return offset;
   return exact_offset(point, L);
 }
 

@@ -168,6 +168,12 @@ int tolerance_sign(const Triangle& G, const GivenPoint& p) {
 
 }  // namespace
 
+// A component of n: 2 monomials, 4 roundings.
+bool has_area(const Triangle& face) {
+  const Edges edges(face);
+  return largest(edges.normal()) > bound(4, 2) * edges.size * edges.size;
+}
+
 // n . (a - O): 6 monomials, 8 roundings.
 int side(const Triangle& face, const Vector& O) {
   const Edges edges(face);
@@ -203,6 +209,25 @@ Verdict blocks(const Triangle& G, int s_G, const Vector& L, const GivenPoint& po
   const int sign = tolerance_sign(G, point);
   if (sign == -1) return Verdict::No;
   return sign == 1 ? verdict : Verdict::Unknown;
+}
+
+// delta and w: 6 monomials each, 8 and 7 roundings.
+Tracked ray_parameter(const TruePoint& point) {
+  const Edges edges(point.face);
+  const Vec n = edges.normal(), to_face = kNumbers.difference(point.face[0], point.K);
+  const Vec d = kNumbers.direction(point.d);
+  const double size = edges.size * edges.size;
+  return quotient(Tracked{dot(n, to_face), bound(8, 6) * size * largest(to_face)},
+                  Tracked{dot(n, d), bound(7, 6) * size * largest(d)});
+}
+
+// Three components, each: the difference's rounding, t's error, the product's rounding and the sum's.
+double offset(const Vector& L, const TruePoint& point, const Tracked& t, DVector* offset) {
+  const Vec from_L = kNumbers.difference(point.K, L), d = kNumbers.direction(point.d);
+  const Vec D = from_L + t.value * d;
+  *offset = {D.x, D.y, D.z};
+  return 3 * kMargin * (kUnit * (largest(from_L) + largest(D)) + largest(d) * (t.error + kUnit * std::fabs(t.value))) +
+         kUnderflow;
 }
 
 }  // namespace facemap::plain
