@@ -12,7 +12,7 @@ class PointLight : public FaceMap {
  public:
   struct Options {
     Builder builder = Builder::Cover;
-    int texels = 0;          ///< width and height of the map; 0: by the number of faces
+    int texels = 0;          ///< width and height of the map; 0: by the number of faces and their outline
     double field_angle = 0;  ///< radians; 0: fitted to the scene, 360 degrees for a light among the faces
     bool keep_all = false;   ///< keep faces behind full covers too (count_hits needs it)
   };
@@ -41,6 +41,11 @@ class PointLight : public FaceMap {
   }
   bool get_lighten_up(const Vector& point, const On& on, Counters* counters = nullptr) const;
 
+  /// The same for many points at once, a few times as fast: lit[i] becomes 1 if points[i] is lit and 0 if not. In
+  /// whatever order they come; neighbours one after the other are quicker. Throws Error if the spans differ in size
+  /// or a point is not finite; lit is then partly written.
+  void get_lighten_up(std::span<const Vector> points, std::span<std::uint8_t> lit, Counters* counters = nullptr) const;
+
   /// Whether the true point that a camera sees is lit: camera and light strictly on the same side of its face,
   /// and nothing strictly between. A light on the face's plane leaves it dark. Throws Error if the face is not one of
   /// the scene, and as is_blocked does.
@@ -51,13 +56,17 @@ class PointLight : public FaceMap {
   bool is_blocked(const SurfacePoint& point, Counters* counters = nullptr) const;
 
  private:
-  // Room for undecided faces without a heap allocation; longer lists take one.
-  static constexpr std::size_t kFewUndecided = 64;
-
   PointLight(const Scene& scene, const SpaceVector& frame, const Options& options);
 
+  // A chunk of get_lighten_up's points.
+  void ask_together(std::span<const Vector> points, std::uint8_t* lit, Counters* counters) const;
+
+  template <class Predicate>
+  bool is_blocked_for_sure(std::span<const std::uint32_t> ids, bool is_cut, std::uint32_t skip,
+                           const Predicate& blocks) const;
+
   template <class Point>
-  bool is_blocked(const DVector& offset, const Point& point, std::uint32_t skip, bool exact_only,
+  bool is_blocked(const DVector& offset, const Point& point, std::uint32_t skip, float tolerance,
                   Counters* counters) const;
 };
 

@@ -23,8 +23,8 @@ Texels build_texels(const Scene& scene, const SpaceVector& frame, const Projecti
     });
     return Texels(texel_count, entries, planes.nearest(), {});
   }
-  Coverage coverage = cover_faces(scene, frame, projection, planes, keep_all);
-  return Texels(texel_count, coverage.entries, planes.nearest(), std::move(coverage.cuts));
+  const Coverage coverage = cover_faces(scene, frame, projection, planes, keep_all);
+  return Texels(texel_count, coverage.entries, planes.nearest(), coverage.cuts);
 }
 
 }  // namespace

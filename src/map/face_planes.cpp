@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "math/vec3.h"
+#include "scene/reserve_pages.h"
 
 namespace facemap {
 namespace {
@@ -30,10 +31,10 @@ double length(const Vec3<Tracked>& v) {
 
 double error_of(const Vec3<Tracked>& v) { return v.x.error + v.y.error + v.z.error; }
 
-void store(const Vec3<Tracked>& v, double factor, float out[3]) {
-  out[0] = static_cast<float>(v.x.value * factor);
-  out[1] = static_cast<float>(v.y.value * factor);
-  out[2] = static_cast<float>(v.z.value * factor);
+void store(const Vec3<Tracked>& v, double factor, int plane, simd::FacePlanes& planes) {
+  planes.x[plane] = static_cast<float>(v.x.value * factor);
+  planes.y[plane] = static_cast<float>(v.y.value * factor);
+  planes.z[plane] = static_cast<float>(v.z.value * factor);
 }
 
 double power_of_two(int exponent) { return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52); }
@@ -66,7 +67,9 @@ double distance_bound(double nearest_corner, double longest_edge) {
 }
 
 FacePlanesTable::FacePlanesTable(const Scene& scene, const Vector& origin)
-    : sides_(scene.face_count()), planes_(scene.face_count()), nearest_(scene.face_count()) {
+    : sides_(scene.face_count()), nearest_(scene.face_count()) {
+  reserve_pages(planes_, scene.face_count());  // read in no order
+  planes_.resize(scene.face_count());
   double farthest = 0;
   for (const std::uint32_t id : scene.kept_faces()) {
     for (const Vector& v : triangle_of(scene, id)) farthest = std::max(farthest, length(difference(v, origin)));
@@ -85,7 +88,7 @@ FacePlanesTable::FacePlanesTable(const Scene& scene, const Vector& origin)
     for (int i = 0; i < 3; ++i) {
       const Vec3<Tracked> corner = difference(f[i], origin), along = difference(f[(i + 1) % 3], f[i]);
       const Vec3<Tracked> m = cross(corner, along);
-      store(m, square, p.edge[i]);
+      store(m, square, i, p);
       largest_edge_error = std::max(largest_edge_error, kDotRoundings * kFloatHalfUlp * length(m) + 2 * error_of(m));
       longest_edge = std::max(longest_edge, length(along));
       nearest_corner = std::min(nearest_corner, length(corner));
@@ -95,7 +98,7 @@ FacePlanesTable::FacePlanesTable(const Scene& scene, const Vector& origin)
     const Vec3<Tracked> n = cross(difference(f[1], f[0]), difference(f[2], f[0]));
     const Tracked offset = dot(n, difference(f[0], origin));
     const double n_length = length(n), n_error = error_of(n);
-    store(n, square, p.normal);
+    store(n, square, 3, p);
     p.offset = static_cast<float>(offset.value * square * scale_);
     p.normal_error = float_above((kDotRoundings * kFloatHalfUlp * n_length + 2 * n_error) * area);
     p.offset_error =

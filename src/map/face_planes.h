@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "math/exact_sign.h"
-#include "simd/kernels.h"
+#include "simd/face_kernels.h"
 
 namespace facemap {
 
@@ -25,6 +25,8 @@ class FacePlanesTable {
 
   /// Lower bound of the distance of face `id` from O (map units, rounded down), by id.
   const float* nearest() const noexcept { return nearest_.data(); }
+
+  simd::FaceTable table() const noexcept { return {planes_.data(), nearest_.data()}; }
 
   /// Ids of the faces that O does not see edge-on, by nearest bound, then id.
   std::vector<std::uint32_t> front_to_back(const Scene& scene) const;

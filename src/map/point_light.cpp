@@ -10,6 +10,7 @@
 #include "math/dvector.h"
 #include "math/elementary.h"
 #include "simd/floating_point_mode.h"
+#include "simd/list_points.h"
 
 namespace facemap {
 namespace {
@@ -20,11 +21,19 @@ constexpr double kAllAround = 2 * elementary::kPi;
 // no centre worth aiming at.
 constexpr double kWidestFit = 1.4;
 
+// The same for a plane, as a tangent (63 degrees): beyond, its middle would be too coarse.
+constexpr double kWidestPlane = 2;
+
+// A fitted plane is at most so many times as wide as high, or as high as wide.
+constexpr double kMostOblong = 8;
+
 // Half a fitted field is at least this (radians), so that a texel stays far above the errors of directions.
 constexpr double kNarrowestFit = 0x1p-24;
 
 // Share by which a fitted field is wider than its faces: a rim for the projection's error.
 constexpr double kFieldMargin = 1e-3;
+
+constexpr const char* kNotFinite = "a point to be lit is not finite";
 
 constexpr int kFewestTexels = 64;  // a side
 constexpr int kMostTexels = 2048;  // a side
@@ -35,16 +44,27 @@ DVector sight_of(const Scene& scene, const Vector& position) {
   return length(towards) > 0 ? towards : DVector(0, 0, -1);
 }
 
-// The largest angle between the sight and a vertex of a kept face (radians). A vertex at the light itself belongs
-// to faces that it sees edge-on and that nothing hits.
-double half_field_of_faces(const Scene& scene, const SpaceVector& frame) {
-  double half = 0;
+// How far the faces reach from the sight, as tangents of angles: across, up and in any direction. Infinite if a vertex
+// of a kept face is not in front. A vertex at the light itself belongs to faces that it sees edge-on and nothing hits.
+struct Reach {
+  double x = 0, y = 0, r = 0;
+};
+
+Reach reach_of_faces(const Scene& scene, const SpaceVector& frame) {
+  const DVector O(frame.position());
+  Reach reach;
   for (const std::uint32_t id : scene.kept_faces()) {
     for (const Vector& v : triangle_of(scene, id)) {
-      half = std::max(half, angle_between(frame.axis_z(), DVector(v) - DVector(frame.position())));
+      const DVector p = frame.local_from_world(DVector(v) - O);
+      if (p == DVector(0)) continue;
+      if (!(p.z > 0)) return {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+      reach.x = std::max(reach.x, std::fabs(p.x) / p.z);
+      reach.y = std::max(reach.y, std::fabs(p.y) / p.z);
+      reach.r = std::max(reach.r, (p.x * p.x + p.y * p.y) / (p.z * p.z));
     }
   }
-  return half;
+  reach.r = std::sqrt(reach.r);
+  return reach;
 }
 
 int texels_for(std::size_t faces) {
@@ -53,12 +73,28 @@ int texels_for(std::size_t faces) {
   return texels;
 }
 
+// Departs: the paper's maps are surfaces, round the whole of a light. Seen from outside, a scene fits a plane, on which
+// edges stay straight and points are found without an angle. Of oblong scenes the raster is oblong too.
+Projection plane_for(const Reach& reach, int texels, bool is_square) {
+  double x = std::max(reach.x, kNarrowestFit) * (1 + kFieldMargin);
+  double y = std::max(reach.y, kNarrowestFit) * (1 + kFieldMargin);
+  if (is_square) x = y = std::max(x, y);
+  const double stretch = std::sqrt(std::clamp(y / x, 1 / kMostOblong, kMostOblong));
+  const int width = static_cast<int>(std::ceil(texels / stretch)),
+            height = static_cast<int>(std::ceil(texels * stretch));
+  const double half_height = std::max(y, x * height / width);
+  return Projection(ProjectionKind::Plane, 2 * elementary::atan2(half_height, 1), width, height);
+}
+
 Projection projection_for(const Scene& scene, const SpaceVector& frame, const PointLight::Options& options) {
   const FloatingPointMode mode;
   if (options.texels < 0) throw Error("texels of a light's map must not be negative");
-  const int texels = options.texels > 0 ? options.texels : texels_for(scene.kept_faces().size());
+  const bool is_given = options.texels > 0;
+  const int texels = is_given ? options.texels : texels_for(scene.kept_faces().size());
+  const Reach reach = reach_of_faces(scene, frame);
+  if (options.field_angle == 0 && reach.r < kWidestPlane) return plane_for(reach, texels, is_given);
   // Within 90 degrees of the sight a face lies in the convex hull of its corners' directions.
-  const double half = half_field_of_faces(scene, frame);
+  const double half = reach.r < HUGE_VAL ? elementary::atan2(reach.r, 1) : elementary::kPi;
   const double fitted = std::max(half, kNarrowestFit) * (1 + kFieldMargin);
   double field_angle = options.field_angle;
   if (field_angle == 0) {
@@ -72,6 +108,45 @@ Projection projection_for(const Scene& scene, const SpaceVector& frame, const Po
 
 constexpr std::uint32_t kSkipNone = 0xffffffffu;
 
+// Faces of a list that are asked before the undecided among them are asked exactly.
+constexpr std::size_t kFewFaces = 64;
+
+bool is_beyond(double length, float cut) { return length > cut * (1.0 + Texels::kDepthMargin); }
+
+simd::ListPoint list_point(const DVector& D, double length) {
+  simd::ListPoint point;
+  for (int i = 0; i < 3; ++i) point.D[i] = static_cast<float>(D[i]);
+  point.length = static_cast<float>(length * (1 + 0x1p-20));
+  point.reach = static_cast<float>(length * (1.0 + Texels::kDepthMargin));
+  return point;
+}
+
+// Unused places are the world's origin.
+void load(std::span<const Vector> points, simd::PointChunk& chunk) {
+  float sum = 0;  // 0 times what is finite
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    chunk.x[i] = points[i].x;
+    chunk.y[i] = points[i].y;
+    chunk.z[i] = points[i].z;
+    sum += 0 * points[i].x + 0 * points[i].y + 0 * points[i].z;
+  }
+  if (!(sum == 0)) throw Error(kNotFinite);
+  for (std::size_t i = points.size(); i < simd::kChunk; ++i) chunk.x[i] = chunk.y[i] = chunk.z[i] = 0;
+}
+
+simd::PlaneMap plane_map_of(const SpaceVector& frame, const Projection& projection) {
+  simd::PlaneMap map;
+  for (int i = 0; i < 3; ++i) {
+    map.axis_x[i] = frame.axis_x()[i];
+    map.axis_y[i] = frame.axis_y()[i];
+    map.axis_z[i] = frame.axis_z()[i];
+  }
+  map.texel_angle = projection.texel_angle();
+  map.width = projection.width();
+  map.height = projection.height();
+  return map;
+}
+
 }  // namespace
 
 PointLight::PointLight(const Scene& scene, const Vector& position, const Options& options)
@@ -81,43 +156,110 @@ PointLight::PointLight(const Scene& scene, const SpaceVector& frame, const Optio
     : FaceMap(scene, frame, projection_for(scene, frame, options), options.builder, options.keep_all) {}
 
 template <class Point>
-bool PointLight::is_blocked(const DVector& offset, const Point& point, std::uint32_t skip, bool exact_only,
+bool PointLight::is_blocked(const DVector& offset, const Point& point, std::uint32_t skip, float tolerance,
                             Counters* counters) const {
   const std::optional<Texel> texel = texel_of(offset);
   if (!texel) return false;
   const std::size_t texel_index =
       static_cast<std::size_t>(texel->y) * static_cast<std::size_t>(width()) + static_cast<std::size_t>(texel->x);
   const std::span<const std::uint32_t> ids = texels().faces_at(texel_index);
-
   const double scale = planes().scale();
-  const float D[3] = {static_cast<float>(offset.x * scale), static_cast<float>(offset.y * scale),
-                      static_cast<float>(offset.z * scale)};
   const double true_length = length(offset) * scale;
-  const bool is_past_cut = true_length > texels().cut(texel_index) * (1.0 + Texels::kDepthMargin);
+  const bool is_past_cut = is_beyond(true_length, texels().cut(texel_index));
   const auto exact = [&](std::uint32_t id) {
     return blocks(triangle_of(scene(), id), planes().side(id), position(), point, counters);
   };
 
-  if (exact_only || !(true_length < simd::kLargestLength)) {
-    // Beyond a full cover the list is not complete: ask every face.
-    const auto all = is_past_cut ? std::span<const std::uint32_t>(scene().kept_faces()) : ids;
-    return std::any_of(all.begin(), all.end(), [&](std::uint32_t id) { return id != skip && exact(id); });
+  if (!(true_length < simd::kLargestLength)) return is_blocked_for_sure(ids, is_past_cut, skip, exact);
+  const simd::ListPoint asked = list_point(offset * scale, true_length);
+  if (tolerance > 0) {
+    // What the filter takes for a blocker may be within the tolerance.
+    return is_blocked_for_sure(ids, is_past_cut, skip, [&](std::uint32_t id) {
+      std::uint32_t undecided;
+      const simd::BlockWalk walk = simd::find_blocker(planes().table(), &id, 1, asked, kSkipNone, &undecided);
+      return (walk.blocked || walk.undecided > 0) && exact(id);
+    });
   }
   if (is_past_cut) {
     if (counters != nullptr) ++counters->by_float;
     return true;
   }
+  std::uint32_t undecided[kFewFaces];
+  for (std::size_t first = 0; first < ids.size(); first += kFewFaces) {
+    const simd::BlockWalk walk = simd::find_blocker(planes().table(), ids.data() + first,
+                                                    std::min(kFewFaces, ids.size() - first), asked, skip, undecided);
+    if (counters != nullptr) counters->by_float += walk.tested - walk.undecided;
+    if (walk.blocked || std::any_of(undecided, undecided + walk.undecided, exact)) return true;
+    if (walk.ended) return false;
+  }
+  return false;
+}
 
-  const auto bound = static_cast<float>(true_length * (1 + 0x1p-20));
-  const auto reach = static_cast<float>(true_length * (1.0 + Texels::kDepthMargin));
-  std::uint32_t few[kFewUndecided];
-  std::vector<std::uint32_t> many(ids.size() > kFewUndecided ? ids.size() : 0);
-  std::uint32_t* undecided = many.empty() ? few : many.data();
-  const simd::BlockWalk walk = simd::find_blocker(planes().planes(), planes().nearest(), ids.data(), ids.size(), D,
-                                                  bound, reach, skip, undecided);
-  if (counters != nullptr) counters->by_float += walk.tested - walk.undecided;
-  if (walk.blocked) return true;
-  return std::any_of(undecided, undecided + walk.undecided, exact);
+// A list that `is_cut` is not complete for this point: then every face of the scene is asked besides.
+template <class Predicate>
+bool PointLight::is_blocked_for_sure(std::span<const std::uint32_t> ids, bool is_cut, std::uint32_t skip,
+                                     const Predicate& blocks) const {
+  const auto blocks_other = [&](std::uint32_t id) { return id != skip && blocks(id); };
+  if (std::any_of(ids.begin(), ids.end(), blocks_other)) return true;
+  const std::vector<std::uint32_t>& all = scene().kept_faces();
+  return is_cut && std::any_of(all.begin(), all.end(), blocks_other);
+}
+
+void PointLight::get_lighten_up(std::span<const Vector> points, std::span<std::uint8_t> lit, Counters* counters) const {
+  const FloatingPointMode mode;
+  if (lit.size() != points.size()) throw Error("as many answers as points are needed");
+  for (std::size_t first = 0; first < points.size(); first += simd::kChunk) {
+    ask_together(points.subspan(first, std::min(simd::kChunk, points.size() - first)), lit.data() + first, counters);
+  }
+}
+
+void PointLight::ask_together(std::span<const Vector> points, std::uint8_t* lit, Counters* counters) const {
+  simd::PointChunk chunk;
+  load(points, chunk);
+  const Vector& O = position();
+  const double origin[3] = {O.x, O.y, O.z};
+  simd::find_offsets(origin, planes().scale(), chunk);
+  if (projection().kind() == ProjectionKind::Plane) {
+    simd::find_texels(plane_map_of(*this, projection()), chunk);
+  } else {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto texel = texel_of({chunk.offset_x[i], chunk.offset_y[i], chunk.offset_z[i]});
+      chunk.texel[i] = texel ? texel->y * width() + texel->x : -1;
+    }
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (chunk.texel[i] >= 0) texels().prefetch(static_cast<std::size_t>(chunk.texel[i]));
+  }
+
+  const std::uint32_t* ids[simd::kChunk];
+  std::uint32_t counts[simd::kChunk];
+  simd::ListPoint asked[simd::kChunk];
+  std::uint8_t numbers[simd::kChunk];
+  std::size_t asked_count = 0, by_float = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    lit[i] = 1;
+    if (chunk.texel[i] < 0) continue;
+    const auto texel = static_cast<std::size_t>(chunk.texel[i]);
+    if (!(chunk.length[i] < simd::kLargestLength)) {
+      lit[i] = get_lighten_up(points[i], counters);
+    } else if (is_beyond(chunk.length[i], texels().cut(texel))) {
+      lit[i] = 0;
+      ++by_float;
+    } else if (const std::span<const std::uint32_t> faces = texels().faces_at(texel); !faces.empty()) {
+      __builtin_prefetch(faces.data());
+      ids[asked_count] = faces.data();
+      counts[asked_count] = static_cast<std::uint32_t>(faces.size());
+      asked[asked_count] = list_point({chunk.D_x[i], chunk.D_y[i], chunk.D_z[i]}, chunk.length[i]);
+      numbers[asked_count++] = static_cast<std::uint8_t>(i);
+    }
+  }
+  simd::Verdict verdicts[simd::kChunk];
+  by_float += simd::find_blockers(planes().table(), ids, counts, asked, asked_count, verdicts);
+  for (std::size_t k = 0; k < asked_count; ++k) {
+    const std::size_t i = numbers[k];
+    lit[i] = verdicts[k] == simd::kUndecided ? get_lighten_up(points[i], counters) : verdicts[k] == simd::kNo;
+  }
+  if (counters != nullptr) counters->by_float += by_float;
 }
 
 bool PointLight::is_blocked(const SurfacePoint& point, Counters* counters) const {
@@ -126,7 +268,7 @@ bool PointLight::is_blocked(const SurfacePoint& point, Counters* counters) const
   const DVector offset = offset_from(position(), p, ray_parameter(p));
   if (offset == DVector(0)) return false;
   const std::uint32_t skip = point.face == kNoFace ? kSkipNone : static_cast<std::uint32_t>(point.face);
-  return is_blocked(offset, p, skip, false, counters);
+  return is_blocked(offset, p, skip, 0, counters);
 }
 
 bool PointLight::get_lighten_up(const SurfacePoint& point, Counters* counters) const {
@@ -141,7 +283,7 @@ bool PointLight::get_lighten_up(const SurfacePoint& point, Counters* counters) c
 bool PointLight::get_lighten_up(const Vector& point, const On& on, Counters* counters) const {
   const FloatingPointMode mode;
   if (!std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z)) {
-    throw Error("a point to be lit is not finite");
+    throw Error(kNotFinite);
   }
   if (!(on.tolerance >= 0) || !std::isfinite(on.tolerance) || (on.tolerance > 0 && on.face != kNoFace)) {
     throw Error("a point to be lit takes a face or a finite tolerance that is not negative, not both");
@@ -161,7 +303,7 @@ bool PointLight::get_lighten_up(const Vector& point, const On& on, Counters* cou
   }
   const DVector offset = offset_from(position(), given);
   if (offset == DVector(0)) return true;
-  return !is_blocked(offset, given, skip, on.tolerance > 0, counters);
+  return !is_blocked(offset, given, skip, on.tolerance, counters);
 }
 
 }  // namespace facemap

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -17,7 +16,8 @@ class Texels {
   /// `entries` front to back within each texel. `nearest` gives each face's lower bound of distance; `cuts`
   /// (empty, or one a texel) a distance that a face covering the whole texel does not exceed: entries hidden
   /// behind it are dropped. Same units for both.
-  Texels(std::size_t texel_count, std::span<const TexelEntry> entries, const float* nearest, std::vector<float> cuts);
+  Texels(std::size_t texel_count, std::span<const TexelEntry> entries, const float* nearest,
+         std::span<const float> cuts);
 
   /// Margin, relative, between a query's distance and the bounds it is compared with. Distances of queries and
   /// bounds are rounded to float32 (2^-24, twice) and directions are off by 2^-24: below 2^-21 together.
@@ -28,19 +28,32 @@ class Texels {
   static bool is_hidden(float nearest, float cut) { return nearest > cut * (1 + 2 * kDepthMargin); }
 
   std::span<const std::uint32_t> faces_at(std::size_t texel) const {
-    return {faces_.data() + offsets_[texel], offsets_[texel + 1] - offsets_[texel]};
+    const std::uint64_t base = bases_[texel / kBlock];
+    const std::uint32_t first = texels_[texel].first;
+    return {faces_.data() + base + (first - static_cast<std::uint32_t>(base)), texels_[texel + 1].first - first};
   }
 
   /// Beyond this distance every direction of the texel is blocked; infinity if no face covers it.
-  float cut(std::size_t texel) const { return cuts_.empty() ? std::numeric_limits<float>::infinity() : cuts_[texel]; }
+  float cut(std::size_t texel) const { return texels_[texel].cut; }
+
+  /// Has the processor fetch what faces_at and cut read.
+  void prefetch(std::size_t texel) const { __builtin_prefetch(&texels_[texel]); }
 
   std::size_t entry_count() const noexcept { return faces_.size(); }
   std::size_t memory_bytes() const noexcept;
 
  private:
-  std::vector<std::size_t> offsets_;
+  // Half the size of two 64-bit numbers, and one cache line for both: the low half of where a list begins; where the
+  // list of each block's first texel begins says the rest, as no block has 2^32 entries.
+  struct Texel {
+    std::uint32_t first;
+    float cut;
+  };
+  static constexpr std::size_t kBlock = 256;  // texels
+
+  std::vector<Texel> texels_;  // and one more: the end
+  std::vector<std::uint64_t> bases_;
   std::vector<std::uint32_t> faces_;
-  std::vector<float> cuts_;
 };
 
 }  // namespace facemap

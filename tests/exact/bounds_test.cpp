@@ -303,7 +303,7 @@ TEST(Bounds, AListIsCutOnlyBehindItsMargin) {
                                       static_cast<float>(kCut * (1 + 1.5 * kMargin)), 3.0f};
   std::vector<TexelEntry> entries;
   for (std::uint32_t face = 0; face < nearest.size(); ++face) entries.push_back({0, face});
-  const Texels cut(1, entries, nearest.data(), {kCut});
+  const Texels cut(1, entries, nearest.data(), {&kCut, 1});
   const auto faces = cut.faces_at(0);
   // Queries up to (1 + margin) beyond the cut read the list: all faces that begin there are in it, near ones first.
   ASSERT_GE(faces.size(), 3u);

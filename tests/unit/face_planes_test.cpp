@@ -66,8 +66,8 @@ TEST(FacePlanes, FilterNeverContradictsTheExactSigns) {
         ASSERT_EQ(cone == facemap::simd::kYes, facemap::covers(face, s, O, d).hit) << "scale " << scale;
       }
       std::uint32_t undecided;
-      const auto walk = facemap::simd::find_blocker(planes.planes(), planes.nearest(), &id, 1, D, bound, INFINITY,
-                                                    0xffffffffu, &undecided);
+      const facemap::simd::ListPoint asked{{D[0], D[1], D[2]}, bound, INFINITY};
+      const auto walk = facemap::simd::find_blocker(planes.table(), &id, 1, asked, 0xffffffffu, &undecided);
       if (walk.undecided == 0) {
         ASSERT_EQ(walk.blocked, facemap::blocks(face, s, O, given)) << "scale " << scale;
       }
