@@ -9,10 +9,6 @@
 namespace facemap {
 namespace {
 
-// Lifts below this share of the face's largest coordinate are noise: normals and the lifted point are rounded to
-// float32, half a unit of 2^-24 for each coordinate, sqrt(3) for three.
-constexpr double kLeastLift = 0x1p-23;
-
 double largest_coordinate(const DVector (&v)[3]) {
   double largest = 0;
   for (const DVector& a : v) largest = std::max({largest, std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});

@@ -19,6 +19,10 @@ struct Sample {
 /// White mode: albedo 1; radiance = sum over lights, in index order, of colour * intensity * cos * falloff.
 class Shader {
  public:
+  /// Lifts below this share of the face's largest coordinate are noise: normals and the lifted point are rounded to
+  /// float32, half a unit of 2^-24 for each coordinate, sqrt(3) for three.
+  static constexpr double kLeastLift = 0x1p-23;
+
   Shader(const Camera& camera, std::span<const PointLight> lights, const Renderer::Options& options,
          Renderer::Statistics& statistics);
 

@@ -6,18 +6,11 @@
 #include <hwy/highway.h>
 
 #include "simd/dispatch.h"
+#include "simd/seen_three.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace facemap::simd::HWY_NAMESPACE {
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::ScalableTag<double>;
-using V = hn::Vec<D>;
-using Mask = hn::Mask<D>;
-using Floats = hn::Rebind<float, D>;
-using Integers = hn::Rebind<std::int32_t, D>;
 
 // Offset n . (a - L): 2 u for the differences of n, 1 for its products, 1 for its subtraction; 1 for a - L, 3 for the
 // dot product: 8 u of sum spread_i |a_i - L_i|. Twice that has room for what is of second order.
@@ -28,30 +21,6 @@ constexpr double kOffsetError = 0x1p-49;
 // corner's distance: less than 16 u rho sum / |w|.
 constexpr double kSlopeError = 0x1p-49;
 
-HWY_INLINE V constant(double x) { return hn::Set(D(), x); }
-HWY_INLINE V promoted(const float* p) { return hn::PromoteTo(D(), hn::LoadU(Floats(), p)); }
-HWY_INLINE V load(const double* p) { return hn::LoadU(D(), p); }
-HWY_INLINE void store(V v, double* p) { hn::StoreU(v, D(), p); }
-HWY_INLINE void store_integers(V v, std::int32_t* p) { hn::StoreU(hn::DemoteTo(Integers(), v), Integers(), p); }
-
-struct Three {
-  V x, y, z;
-};
-
-HWY_INLINE V dot(const Three& a, const Three& b) {
-  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-HWY_INLINE Three minus(const Three& a, const Three& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-HWY_INLINE Three magnitude(const Three& a) { return {hn::Abs(a.x), hn::Abs(a.y), hn::Abs(a.z)}; }
-
-HWY_INLINE Three corner(const PlaneBatch& planes, int k, std::size_t i) {
-  return {promoted(planes.corners[3 * k] + i), promoted(planes.corners[3 * k + 1] + i),
-          promoted(planes.corners[3 * k + 2] + i)};
-}
-HWY_INLINE Three point(const float p[3]) { return {constant(p[0]), constant(p[1]), constant(p[2])}; }
-
 // One component of a cross product, p q - r s, and the sum of its magnitudes.
 HWY_INLINE V minor_of(V p, V q, V r, V s, V* spread) {
   const V pq = hn::Mul(p, q), rs = hn::Mul(r, s);
@@ -60,18 +29,14 @@ HWY_INLINE V minor_of(V p, V q, V r, V s, V* spread) {
 }
 
 HWY_INLINE void set_up_lanes(PlaneBatch& planes, const Three& K, std::size_t i) {
-  const Three a = corner(planes, 0, i), b = corner(planes, 1, i), c = corner(planes, 2, i);
+  const Three a = promoted(planes.corners, i), b = promoted(planes.corners + 3, i), c = promoted(planes.corners + 6, i);
   const Three e = minus(b, a), f = minus(c, a), from_K = minus(a, K);
   Three n, spread;
   n.x = minor_of(e.y, f.z, e.z, f.y, &spread.x);
   n.y = minor_of(e.z, f.x, e.x, f.z, &spread.y);
   n.z = minor_of(e.x, f.y, e.y, f.x, &spread.z);
-  store(n.x, planes.normal[0] + i);
-  store(n.y, planes.normal[1] + i);
-  store(n.z, planes.normal[2] + i);
-  store(spread.x, planes.spread[0] + i);
-  store(spread.y, planes.spread[1] + i);
-  store(spread.z, planes.spread[2] + i);
+  store(n, planes.normal, i);
+  store(spread, planes.spread, i);
   store(dot(n, from_K), planes.offset + i);
   store(hn::Mul(constant(kOffsetError), dot(spread, magnitude(from_K))), planes.offset_error + i);
   const Three b_from_K = minus(b, K), c_from_K = minus(c, K);
@@ -90,9 +55,7 @@ void find_facing(const PlaneBatch& planes, const float (*lights)[3], int light_c
                  std::int32_t* unsure) {
   const V zero = hn::Zero(D());
   for (std::size_t i = 0; i < planes.count; i += hn::Lanes(D())) {
-    const Three a = corner(planes, 0, i);
-    const Three n = {load(planes.normal[0] + i), load(planes.normal[1] + i), load(planes.normal[2] + i)};
-    const Three spread = {load(planes.spread[0] + i), load(planes.spread[1] + i), load(planes.spread[2] + i)};
+    const Three a = promoted(planes.corners, i), n = load(planes.normal, i), spread = load(planes.spread, i);
     const V camera = load(planes.offset + i);
     const Mask camera_sure = hn::Gt(hn::Abs(camera), load(planes.offset_error + i));
     const V camera_sign = hn::CopySign(constant(1), camera);
@@ -115,19 +78,13 @@ void find_facing(const PlaneBatch& planes, const float (*lights)[3], int light_c
 bool meet_planes(const PlaneBatch& planes, const double base[3], double allowed, RayBatch& rays,
                  std::uint8_t* is_sharp) {
   const D d;
-  const hn::Rebind<std::int64_t, D> places;
   bool some_dull = false;
   for (std::size_t i = 0; i < rays.count; i += hn::Lanes(d)) {
-    const auto slot = hn::LoadU(places, rays.slots + i);
-    const Three n = {hn::GatherIndex(d, planes.normal[0], slot), hn::GatherIndex(d, planes.normal[1], slot),
-                     hn::GatherIndex(d, planes.normal[2], slot)};
-    const Three direction = {promoted(rays.direction[0] + i), promoted(rays.direction[1] + i),
-                             promoted(rays.direction[2] + i)};
+    const auto slot = hn::LoadU(Places(), rays.slots + i);
+    const Three n = gather(planes.normal, slot), direction = promoted(rays.direction, i);
     const V slope = dot(n, direction);
     const V t = hn::Div(hn::GatherIndex(d, planes.offset, slot), slope);
-    store(hn::Add(constant(base[0]), hn::Mul(t, direction.x)), rays.offset[0] + i);
-    store(hn::Add(constant(base[1]), hn::Mul(t, direction.y)), rays.offset[1] + i);
-    store(hn::Add(constant(base[2]), hn::Mul(t, direction.z)), rays.offset[2] + i);
+    store(plus(point(base), times(direction, t)), rays.offset, i);
     const Mask sharp = hn::Ge(hn::Mul(hn::Abs(slope), constant(allowed)), hn::GatherIndex(d, planes.slope_error, slot));
     if (hn::AllTrue(d, sharp)) continue;
     if (!some_dull) {

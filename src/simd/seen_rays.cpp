@@ -8,26 +8,14 @@
 #include <hwy/highway.h>
 
 #include "simd/dispatch.h"
+#include "simd/seen_three.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace facemap::simd::HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::ScalableTag<double>;
-using V = hn::Vec<D>;
-using Mask = hn::Mask<D>;
-using Floats = hn::Rebind<float, D>;
-
-HWY_INLINE V constant(double x) { return hn::Set(D(), x); }
-
-struct Direction {
-  V x, y, z;
-};
-
 // The operations of Projection::local_from_map, plane, in their order.
-HWY_INLINE Direction plane_local(V dx, V dy, double texel_angle) {
+HWY_INLINE Three plane_local(V dx, V dy, double texel_angle) {
   const V one = constant(1);
   const V x = hn::Mul(dx, constant(texel_angle)), y = hn::Mul(dy, constant(texel_angle));
   const V scale = hn::Div(one, hn::Sqrt(hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), one)));
@@ -79,7 +67,7 @@ HWY_INLINE SinCos sin_cos(V angle) {
 }
 
 // The same for surface.
-HWY_INLINE Direction surface_local(V dx, V dy, double texel_angle) {
+HWY_INLINE Three surface_local(V dx, V dy, double texel_angle) {
   const V r = hn::Sqrt(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)));
   const SinCos beta = sin_cos(hn::Mul(r, constant(texel_angle)));
   const V s = hn::Div(beta.sin, r);
@@ -87,7 +75,7 @@ HWY_INLINE Direction surface_local(V dx, V dy, double texel_angle) {
   return {hn::IfThenElseZero(off_axis, hn::Mul(s, dx)), hn::IfThenElseZero(off_axis, hn::Mul(s, dy)), beta.cos};
 }
 
-HWY_INLINE V in_world(const RayFrame& f, int i, const Direction& d) {
+HWY_INLINE V in_world(const RayFrame& f, int i, const Three& d) {
   return hn::Add(hn::Add(hn::Mul(constant(f.axis_x[i]), d.x), hn::Mul(constant(f.axis_y[i]), d.y)),
                  hn::Mul(constant(f.axis_z[i]), d.z));
 }
@@ -100,7 +88,7 @@ void ray_directions(const RayFrame& frame, const double* x, const double* y, std
   const Floats floats;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const V dx = hn::LoadU(d, x + i), dy = hn::LoadU(d, y + i);
-    const Direction local =
+    const Three local =
         frame.is_surface ? surface_local(dx, dy, frame.texel_angle) : plane_local(dx, dy, frame.texel_angle);
     hn::StoreU(hn::DemoteTo(floats, in_world(frame, 0, local)), floats, direction_x + i);
     hn::StoreU(hn::DemoteTo(floats, in_world(frame, 1, local)), floats, direction_y + i);

@@ -1,0 +1,54 @@
+#include "picture/place_points.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+namespace facemap {
+namespace {
+
+constexpr double kLeastHalf = 0x1p-160;  // world units, below the least float: of a box that is one point
+
+// 2^k for the least k with x < 2^k; x positive and normal.
+double power_of_two_above(double x) {
+  return std::bit_cast<double>(((std::bit_cast<std::uint64_t>(x) >> 52) + 1) << 52);
+}
+
+// To nearest, ties to even, for magnitudes up to 2^31: what is added leaves no room for a fraction.
+std::int32_t rounded(double x) {
+  constexpr double kMagic = 0x1.8p52;
+  return static_cast<std::int32_t>((x + kMagic) - kMagic);
+}
+
+}  // namespace
+
+AskedPoints place_points(const std::vector<Vector>& positions) {
+  AskedPoints points;
+  if (positions.empty()) return points;
+  Vector lower = positions[0], upper = positions[0];
+  for (const Vector& p : positions) {
+    for (int axis = 0; axis < 3; ++axis) {
+      lower[axis] = std::min(lower[axis], p[axis]);
+      upper[axis] = std::max(upper[axis], p[axis]);
+    }
+  }
+  points.origin = (DVector(lower) + DVector(upper)) * 0.5;
+  const DVector half = DVector(upper) - points.origin;
+  const double largest = std::max({half.x, half.y, half.z, kLeastHalf});
+  points.step = power_of_two_above(largest) * 0x1p-30;
+  // Half a step for each coordinate, sqrt(3) / 2 < 0.8661 for three; the difference from the origin is rounded by
+  // 2^-53 of at most 2^30 steps.
+  points.error = 0.8662 * points.step;
+  const double inverse = 1 / points.step;
+  for (auto* coordinates : {&points.x, &points.y, &points.z}) coordinates->resize(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const DVector steps = (DVector(positions[i]) - points.origin) * inverse;
+    points.x[i] = rounded(steps.x);
+    points.y[i] = rounded(steps.y);
+    points.z[i] = rounded(steps.z);
+  }
+  points.faces.assign(positions.size(), kNoOwnFace);
+  return points;
+}
+
+}  // namespace facemap

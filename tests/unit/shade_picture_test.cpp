@@ -1,0 +1,210 @@
+#include "render/shade_picture.h"
+
+#include <facemap/camera.h>
+#include <facemap/point_light.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "map/face_planes.h"
+#include "math/dvector.h"
+#include "picture/place_points.h"
+#include "render/shade.h"
+#include "simd/target.h"
+#include "support/scenes.h"
+
+using namespace facemap;
+using namespace test_scenes;
+
+namespace {
+
+// Normals at the corners: near the face's own, as of a smooth surface, now and then any, zero or none.
+void add_normals(Mesh& mesh, Random& random) {
+  const double roughness = random.between(0.0, 0.6);
+  for (const Corners& corners : mesh.triangles) {
+    const DVector a(mesh.positions[corners[0]]), b(mesh.positions[corners[1]]), c(mesh.positions[corners[2]]);
+    const DVector n = normalized(cross(b - a, c - a));
+    const double turn = random.chance(0.5) ? 1 : -1;
+    Corners normal_corners;
+    for (std::uint32_t& corner : normal_corners) {
+      corner = static_cast<std::uint32_t>(mesh.normals.size());
+      DVector normal = n * turn + random.in_cube() * roughness;
+      if (random.chance(0.05)) normal = random.in_cube();
+      if (random.chance(0.02)) normal = DVector(0);
+      mesh.normals.push_back(Vector(normal));
+      if (random.chance(0.02)) corner = kNoIndex;
+    }
+    mesh.normal_corners.push_back(normal_corners);
+  }
+}
+
+struct Setting {
+  Scene scene;
+  SampleGrid grid;
+  std::vector<Light> lights;
+  Renderer::Options options;
+};
+
+Setting make_setting(Random& random) {
+  TestScene made = make_any_scene(random, 60);
+  if (random.chance(0.8)) add_normals(made.mesh, random);
+  const Vector camera = make_origin(made, random);
+  DVector sight = DVector(made.centre) - DVector(camera);
+  if (sight == DVector(0)) sight = DVector(0, 0, -1);
+  const bool plane = random.chance(0.5);
+  const Projection projection(plane ? ProjectionKind::Plane : ProjectionKind::Surface,
+                              random.between(0.2, plane ? 2.5 : 6.28), random.between(1, 40), random.between(1, 40));
+  Setting setting{Scene(made.mesh), {SpaceVector::looking_along(camera, sight), projection, 1}, {}, {}};
+  setting.lights.resize(static_cast<std::size_t>(random.between(1, 20)));
+  for (Light& light : setting.lights) {
+    light.position = make_origin(made, random);
+    light.color = {static_cast<float>(random.unit()), static_cast<float>(random.unit()), 1};
+    light.intensity = static_cast<float>(random.between(0.0, 3.0));
+  }
+  setting.options.normals = random.chance(0.7) ? Renderer::Normals::Smooth : Renderer::Normals::Flat;
+  setting.options.shadow_terminator_fix = random.chance(0.8);
+  setting.options.falloff = random.chance(0.5) ? Renderer::Falloff::Constant : Renderer::Falloff::InverseSquare;
+  return setting;
+}
+
+// What Shader says of every sample.
+struct Expected {
+  NearestFaces nearest;
+  std::vector<Sample> samples;
+  std::vector<PointLight> lights;
+};
+
+Expected shade_singly(const Setting& setting) {
+  Expected expected;
+  for (const Light& light : setting.lights) {
+    expected.lights.emplace_back(setting.scene, light.position);
+    expected.lights.back().color = light.color;
+    expected.lights.back().intensity = light.intensity;
+  }
+  Camera::Options options;
+  options.projection = setting.grid.projection.kind();
+  options.field_angle = setting.grid.projection.field_angle();
+  options.width = setting.grid.projection.width();
+  options.height = setting.grid.projection.height();
+  const Camera camera(setting.scene, setting.grid.frame, options);
+  Renderer::Statistics statistics;
+  Shader shader(camera, expected.lights, setting.options, statistics);
+  for (int row = 0; row < setting.grid.rows(); ++row) {
+    for (int column = 0; column < setting.grid.columns(); ++column) {
+      Sample sample;
+      shader.shade(setting.grid.map_point(column, row), sample);
+      expected.nearest.faces.push_back(sample.face);
+      expected.samples.push_back(sample);
+    }
+  }
+  return expected;
+}
+
+// Asks the lights' maps about the points whose bits are set, and about the moved points.
+void ask_lights(const Setting& setting, const std::vector<PointLight>& lights, SeenPoints& seen, MovedPoints& moved) {
+  const auto columns = static_cast<std::uint32_t>(setting.grid.columns());
+  const auto keep = [&](std::vector<std::uint8_t>& masks, std::size_t i, std::size_t l, bool lit) {
+    if (!lit) masks[i * seen.stride + l / 8] &= static_cast<std::uint8_t>(~(1u << (l % 8)));
+  };
+  for (std::size_t i = 0; i < seen.points.size(); ++i) {
+    const std::uint32_t sample = seen.points.samples[i], face = seen.points.faces[i];
+    const Triangle triangle = triangle_of(setting.scene, face);
+    const Vector& K = setting.grid.frame.position();
+    const Vector d = setting.grid.direction(static_cast<int>(sample % columns), static_cast<int>(sample / columns));
+    const SurfacePoint point{K, d, triangle, static_cast<FaceId>(face), side(triangle, K)};
+    for (std::size_t l = 0; l < lights.size(); ++l) {
+      if ((seen.masks[i * seen.stride + l / 8] >> (l % 8) & 1) != 0) {
+        keep(seen.masks, i, l, !lights[l].is_blocked(point));
+      }
+    }
+  }
+  for (std::size_t i = 0; i < moved.positions.size(); ++i) {
+    for (std::size_t l = 0; l < lights.size(); ++l) {
+      keep(moved.masks, i, l, lights[l].get_lighten_up(moved.positions[i]));
+    }
+  }
+}
+
+bool same_bits(const Color& a, const Color& b) { return std::memcmp(&a, &b, sizeof(Color)) == 0; }
+
+void expect_same(const Setting& setting, const Expected& expected, const Executor& executor, std::size_t* moved_count) {
+  std::vector<Vector> positions;
+  for (const Light& light : setting.lights) positions.push_back(light.position);
+  SeenPoints seen = find_seen_points(setting.scene, setting.grid, expected.nearest, positions, executor);
+  MovedPoints moved = find_moved_points(setting.scene, setting.grid, seen, setting.lights, setting.options, executor);
+  *moved_count += moved.positions.size();
+  ask_lights(setting, expected.lights, seen, moved);
+  put_back_masks(moved, seen);
+  std::vector<Color> colors(setting.grid.count(), setting.options.background);
+  shade_points(setting.scene, setting.grid, seen, setting.lights, setting.options, executor, colors);
+  for (std::size_t i = 0; i < seen.points.size(); ++i) {
+    const std::vector<std::uint8_t>& lights = expected.samples[seen.points.samples[i]].lights;
+    for (std::size_t byte = 0; byte < seen.stride; ++byte) {
+      ASSERT_EQ(seen.masks[i * seen.stride + byte], lights[byte]) << "sample " << seen.points.samples[i];
+    }
+  }
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    const Color &a = colors[i], &b = expected.samples[i].color;
+    ASSERT_TRUE(same_bits(a, b)) << "sample " << i << ": " << a.r << " " << a.g << " " << a.b << ", not " << b.r << " "
+                                 << b.g << " " << b.b;
+  }
+}
+
+TEST(ShadePicture, GivesTheBitsOfTheShader) {
+  const simd::Target before = simd::active_target();
+  std::size_t moved_count = 0;
+  for (std::uint64_t seed = 1; seed <= 120; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const Setting setting = make_setting(random);
+    const Expected expected = shade_singly(setting);
+    for (const simd::Target target : simd::supported_targets()) {
+      SCOPED_TRACE(simd::name_of(target));
+      simd::set_active_target(target);
+      expect_same(setting, expected, Executor(1 + static_cast<int>(seed % 3)), &moved_count);
+    }
+    simd::set_active_target(before);
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(moved_count, 1000u);
+}
+
+// More points than a task takes: threads share them.
+TEST(ShadePicture, IsTheSameForAnyNumberOfThreads) {
+  Random random(5);
+  TestScene ball = make_scene(Kind::Ball, 500, random);
+  add_normals(ball.mesh, random);
+  const Vector camera = ball.centre + Vector(0, 0, static_cast<float>(3 * ball.radius));
+  const Setting setting{Scene(ball.mesh),
+                        {SpaceVector::looking_at(camera, ball.centre, Vector(0, 1, 0)),
+                         Projection(ProjectionKind::Surface, 0.8, 130, 120), 1},
+                        {{camera, {1, 0.5f, 0.25f}, 1}, {ball.centre + Vector(5, 6, 7), {1, 1, 1}, 2}},
+                        {}};
+  const Expected expected = shade_singly(setting);
+  for (int threads = 1; threads <= 3; ++threads) {
+    std::size_t moved_count = 0;
+    expect_same(setting, expected, Executor(threads), &moved_count);
+    EXPECT_GT(moved_count, 100u);
+  }
+}
+
+TEST(ShadePicture, PlacesFloatPointsWithinTheirError) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Random random(seed);
+    std::vector<Vector> positions(static_cast<std::size_t>(random.between(1, 50)));
+    const double size = random.chance(0.2) ? 0 : std::pow(2.0, random.between(-60, 60));
+    const DVector centre = random.in_cube() * std::pow(2.0, random.between(-60, 60));
+    for (Vector& p : positions) p = Vector(centre + random.in_cube() * size);
+    const AskedPoints points = place_points(positions);
+    ASSERT_EQ(points.size(), positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const DVector stored = points.origin + DVector(points.x[i], points.y[i], points.z[i]) * points.step;
+      // Doubles round `stored`; what float32 holds is far coarser than that unless the box is small beside its place.
+      const double rounding = 0x1p-50 * (length(points.origin) + length(DVector(positions[i])));
+      EXPECT_LE(length(stored - DVector(positions[i])), points.error + rounding) << "seed " << seed;
+    }
+  }
+}
+
+}  // namespace
