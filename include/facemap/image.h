@@ -24,11 +24,12 @@ struct Image {
 };
 
 /// Writes 8-bit RGB PNG (sRGB). The file appears whole or not at all: it is written under a temporary name
-/// beside `path` and renamed. Throws Error, naming the file and the reason (disk full included).
-void write_png(const Image& image, const std::filesystem::path& path);
+/// beside `path` and renamed. `threads` work on it (0: as many as the process may run at once); the bytes do not depend
+/// on them. Throws Error, naming the file and the reason (disk full included).
+void write_png(const Image& image, const std::filesystem::path& path, int threads = 0);
 
 /// The bytes of that file, for a pipe or a web server. Throws Error if the image is empty.
-std::vector<std::uint8_t> encode_png(const Image& image);
+std::vector<std::uint8_t> encode_png(const Image& image, int threads = 0);
 
 /// Write one plane as a NumPy .npy file (version 1.0), the same way: int32 [H,W], float32 [H,W], uint8 [H,W,B].
 void write_ids_npy(const Image& image, const std::filesystem::path& path);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "math/elementary.h"
+#include "render/srgb.h"
 
 namespace facemap {
 namespace {
@@ -52,11 +53,23 @@ class LevelTable {
   std::array<std::uint8_t, kBins> at_bin_start_{};
 };
 
+const LevelTable& level_table() {
+  static const LevelTable table;
+  return table;
+}
+
 }  // namespace
 
 std::uint32_t Color::to_24_bit() const {
-  static const LevelTable table;
-  return table.level(r) << 16 | table.level(g) << 8 | table.level(b);
+  return level_table().level(r) << 16 | level_table().level(g) << 8 | level_table().level(b);
+}
+
+void encode_srgb(const Color* colors, std::size_t count, std::uint8_t* bytes) {
+  const LevelTable& table = level_table();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Color& color = colors[i];
+    for (const float channel : {color.r, color.g, color.b}) *bytes++ = static_cast<std::uint8_t>(table.level(channel));
+  }
 }
 
 Color Color::from_24_bit(std::uint32_t rgb) {

@@ -67,6 +67,16 @@ TEST_F(Png, ReadsBackWhatItWrote) {
   EXPECT_EQ(files_in_folder(), 1u) << "a temporary file was left";
 }
 
+TEST_F(Png, BytesDoNotDependOnThreads) {
+  const Image image = make_image(700, 900);
+  const std::vector<std::uint8_t> bytes = encode_png(image, 1);
+  for (const int threads : {0, 2, 3, 8}) EXPECT_TRUE(encode_png(image, threads) == bytes) << threads;
+  write_png(image, folder_ / "a.png", 3);
+  const facemap::Picture24 picture = facemap::read_png(folder_ / "a.png");
+  ASSERT_EQ(picture.pixels.size(), image.pixels.size());
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) ASSERT_EQ(picture.pixels[i], image.pixels[i].to_24_bit()) << i;
+}
+
 TEST_F(Png, EncodesTheSameBytesAsItWrites) {
   const Image image = make_image(40, 30);
   write_png(image, folder_ / "a.png");
