@@ -57,6 +57,7 @@ class Scene {
   double bounding_radius() const noexcept { return bounding_radius_; }
 
  private:
+  void list_kept_faces(const Executor& executor);
   void find_bounds(const Executor& executor);
 
   Mesh mesh_;

@@ -14,10 +14,12 @@ namespace facemap {
 
 namespace {
 
-constexpr std::size_t kLeastPiece = 1 << 16;  ///< faces worth a task of their own
+constexpr std::size_t kLeastPiece = 1 << 15;  ///< faces worth a task of their own
 
 /// A directed edge: the vertex it leaves in the upper half, the one it enters in the lower. Never 0, as they differ.
 using Edge = std::uint64_t;
+
+constexpr Edge kNone = 0;
 
 Edge edge(std::uint32_t from, std::uint32_t to) { return Edge{from} << 32 | to; }
 Edge opposite(Edge edge) { return std::rotl(edge, 32); }
@@ -32,26 +34,25 @@ using EdgeList = std::deque<Edge>;
 template <int kSlotBits, class NextStage>
 class EdgeWindow {
  public:
-  explicit EdgeWindow(NextStage& next) : next_(next), slots_(std::size_t{1} << kSlotBits, kEmpty) {}
+  explicit EdgeWindow(NextStage& next) : next_(next), slots_(std::size_t{1} << kSlotBits, kNone) {}
 
   void push_back(Edge e) {
     // Other bits of the product for each size: edges that share a slot in one stage seldom do in the next.
     Edge& slot = slots_[undirected(e) * 0x9E3779B97F4A7C15u << kShift >> (64 - kSlotBits)];
     const Edge seen = slot;
     const bool cancels = seen == opposite(e);
-    slot = cancels ? kEmpty : e;
-    if (seen != kEmpty && !cancels) next_.push_back(seen);
+    slot = cancels ? kNone : e;
+    if (seen != kNone && !cancels) next_.push_back(seen);
   }
 
   void flush() {
     for (const Edge e : slots_) {
-      if (e != kEmpty) next_.push_back(e);
+      if (e != kNone) next_.push_back(e);
     }
   }
 
  private:
   static constexpr int kShift = kSlotBits;
-  static constexpr Edge kEmpty = 0;
 
   NextStage& next_;
   std::vector<Edge> slots_;
@@ -64,26 +65,40 @@ using NearWindow = EdgeWindow<12, FarWindow>;
 /// Several threads may set the same one, all to the same value.
 void set_kind(SetKind& kind, SetKind value) { std::atomic_ref(kind).store(value, std::memory_order_relaxed); }
 
-/// The edges that are left of each piece of the faces; marks the sets that have a kept face as closed so far.
-std::vector<EdgeList> cancel_nearby(const Scene& scene, const VertexSets& sets, const Executor& executor,
-                                    std::vector<SetKind>& kinds) {
-  const Pieces pieces(executor, scene.face_count(), kLeastPiece);
-  std::vector<EdgeList> left(pieces.size());
-  executor.for_each(pieces.size(), [&](std::size_t piece, int) {
-    FarWindow far(left[piece]);
-    NearWindow near(far);
-    for (std::size_t face = pieces.begin(piece); face != pieces.end(piece); ++face) {
-      const Corners c = welded_corners(scene.mesh().triangles[face], scene.welded());
-      if (!has_edges(scene, face, c)) continue;
-      near.push_back(edge(c[0], c[1]));
-      near.push_back(edge(c[1], c[2]));
-      near.push_back(edge(c[2], c[0]));
-      if (scene.is_kept(face)) set_kind(kinds[sets.root_of(c[0])], SetKind::Closed);
+/// What a piece of the faces leaves.
+struct Remains {
+  EdgeList edges;  ///< that have not met their opposites
+  std::vector<FaceRun> runs;
+};
+
+/// Goes through a piece of the faces; marks the sets that have a kept face as closed so far.
+Remains cancel_nearby(const Scene& scene, const VertexSets& sets, std::size_t begin, std::size_t end,
+                      std::vector<SetKind>& kinds) {
+  Remains remains;
+  FarWindow far(remains.edges);
+  NearWindow near(far);
+  std::uint32_t root_before = kNoIndex;
+  Edge last =
+      kNone;  // the edge back to the first corner: in a polygon's fan of faces the next one begins with its opposite
+  for (std::size_t face = begin; face != end; ++face) {
+    const Corners c = welded_corners(scene.mesh().triangles[face], scene.welded());
+    const std::uint32_t root = sets.root_of(c[0]);
+    if (root != root_before) remains.runs.push_back({static_cast<std::uint32_t>(face), root});
+    root_before = root;
+    if (!has_edges(scene, face, c)) continue;
+    if (scene.is_kept(face)) set_kind(kinds[root], SetKind::Closed);
+    const Edge first = edge(c[0], c[1]);
+    if (first != opposite(last)) {
+      if (last != kNone) near.push_back(last);
+      near.push_back(first);
     }
-    near.flush();
-    far.flush();
-  });
-  return left;
+    near.push_back(edge(c[1], c[2]));
+    last = edge(c[2], c[0]);
+  }
+  if (last != kNone) near.push_back(last);
+  near.flush();
+  far.flush();
+  return remains;
 }
 
 std::uint64_t weight(Edge edge) {
@@ -93,11 +108,11 @@ std::uint64_t weight(Edge edge) {
 
 /// Gives each pair of vertices a weight and sums it over the edges of a set, with the sign of their direction. Where
 /// edges cancel the sum is 0; so it proves most open sets open. (A sum of 0 proves nothing.)
-void mark_sets_by_sums(const std::vector<EdgeList>& left, const VertexSets& sets, const Executor& executor,
+void mark_sets_by_sums(const std::vector<Remains>& left, const VertexSets& sets, const Executor& executor,
                        std::vector<SetKind>& kinds) {
   std::vector<std::uint64_t> sums(sets.size(), 0);
   executor.for_each(left.size(), [&](std::size_t piece, int) {
-    for (const Edge e : left[piece]) {
+    for (const Edge e : left[piece].edges) {
       const std::uint64_t w = weight(e);
       std::atomic_ref(sums[sets.root_of(start_of(e))])
           .fetch_add(e == undirected(e) ? w : 0 - w, std::memory_order_relaxed);
@@ -126,18 +141,18 @@ void mark_sets_by_sorting(Directions& edges, const VertexSets& sets, std::vector
 }
 
 /// Decides the sets that may still be closed, one class of pairs of vertices at a time, which bounds the memory.
-void mark_the_rest(const std::vector<EdgeList>& left, const VertexSets& sets, const Executor& executor,
+void mark_the_rest(const std::vector<Remains>& left, const VertexSets& sets, const Executor& executor,
                    std::vector<SetKind>& kinds) {
   constexpr std::size_t kClassSize = 1 << 16;
   constexpr std::size_t kMostClasses = 16;
   std::size_t count = 0;
-  for (const EdgeList& edges : left) count += edges.size();
+  for (const Remains& remains : left) count += remains.edges.size();
   const std::size_t classes = std::clamp<std::size_t>(count / kClassSize, 1, kMostClasses);
   std::vector<SetKind> found = kinds;
   executor.for_each(classes, [&](std::size_t which, int) {
     Directions edges;
-    for (const EdgeList& list : left) {
-      for (const Edge e : list) {
+    for (const Remains& remains : left) {
+      for (const Edge e : remains.edges) {
         if (classes > 1 && (weight(e) >> 32) * classes >> 32 != which) continue;
         if (kinds[sets.root_of(start_of(e))] == SetKind::Open) continue;
         (e == undirected(e) ? edges.up : edges.down).push_back(undirected(e));
@@ -150,19 +165,25 @@ void mark_the_rest(const std::vector<EdgeList>& left, const VertexSets& sets, co
 
 }  // namespace
 
-bool has_edges(const Scene& scene, std::size_t face, const Corners& corners) {
-  if (scene.is_kept(face)) return true;
+bool fills_a_gap(const Scene& scene, std::size_t face, const Corners& corners) {
   const Mesh& mesh = scene.mesh();
   return !repeats_vertex(corners) && is_degenerate(mesh.vertex(face, 0), mesh.vertex(face, 1), mesh.vertex(face, 2));
 }
 
-std::vector<SetKind> find_closed_sets(const Scene& scene, const VertexSets& sets, const Executor& executor) {
-  std::vector<SetKind> kinds(sets.size(), SetKind::NoFaces);
-  const std::vector<EdgeList> left = cancel_nearby(scene, sets, executor, kinds);
-  if (std::all_of(left.begin(), left.end(), [](const EdgeList& edges) { return edges.empty(); })) return kinds;
-  mark_sets_by_sums(left, sets, executor, kinds);
-  mark_the_rest(left, sets, executor, kinds);
-  return kinds;
+ClosedSets find_closed_sets(const Scene& scene, const VertexSets& sets, const Executor& executor) {
+  ClosedSets found;
+  found.kinds.assign(sets.size(), SetKind::NoFaces);
+  const Pieces pieces(executor, scene.face_count(), kLeastPiece);
+  std::vector<Remains> left(pieces.size());
+  executor.for_each(pieces.size(), [&](std::size_t piece, int) {
+    left[piece] = cancel_nearby(scene, sets, pieces.begin(piece), pieces.end(piece), found.kinds);
+  });
+  for (const Remains& remains : left) found.runs.insert(found.runs.end(), remains.runs.begin(), remains.runs.end());
+  if (std::any_of(left.begin(), left.end(), [](const Remains& remains) { return !remains.edges.empty(); })) {
+    mark_sets_by_sums(left, sets, executor, found.kinds);
+    mark_the_rest(left, sets, executor, found.kinds);
+  }
+  return found;
 }
 
 }  // namespace facemap

@@ -9,7 +9,6 @@
 
 #include "scene/closed_edges.h"
 #include "scene/closed_winding.h"
-#include "scene/pieces.h"
 #include "scene/vertex_sets.h"
 #include "scene/welded.h"
 
@@ -17,7 +16,7 @@ namespace facemap {
 
 namespace {
 
-constexpr std::size_t kLeastPiece = 1 << 16;  ///< faces worth a task of their own
+constexpr std::size_t kLeastPiece = 1 << 15;  ///< faces worth a task of their own
 
 /// The vertices that faces connect.
 VertexSets connected_vertices(const Scene& scene, const Executor& executor) {
@@ -43,8 +42,8 @@ bool is_finite(const Vector& v) { return std::isfinite(v.x) && std::isfinite(v.y
 
 ClosedParts::ClosedParts(const Scene& scene, const Executor& executor) {
   const VertexSets sets = connected_vertices(scene, executor);
-  const std::vector<SetKind> kinds = find_closed_sets(scene, sets, executor);
-  if (std::find(kinds.begin(), kinds.end(), SetKind::Closed) == kinds.end()) return;
+  const ClosedSets found = find_closed_sets(scene, sets, executor);
+  if (std::find(found.kinds.begin(), found.kinds.end(), SetKind::Closed) == found.kinds.end()) return;
 
   std::vector<std::uint32_t> part_of_vertex(sets.size());
   std::uint32_t part_count = 0;
@@ -53,11 +52,15 @@ ClosedParts::ClosedParts(const Scene& scene, const Executor& executor) {
     if (root != vertex) {
       part_of_vertex[vertex] = part_of_vertex[root];
     } else {
-      part_of_vertex[vertex] = kinds[vertex] == SetKind::Closed ? part_count++ : kOpen;
+      part_of_vertex[vertex] = found.kinds[vertex] == SetKind::Closed ? part_count++ : kOpen;
     }
   }
   make_boxes(scene, part_of_vertex, part_count);
-  make_runs(scene, part_of_vertex, executor);
+  for (const FaceRun& run : found.runs) {
+    const std::uint32_t part = part_of_vertex[run.root];
+    if (runs_.empty() || runs_.back().part != part) runs_.push_back({run.first_face, part});
+  }
+  runs_.shrink_to_fit();
 }
 
 void ClosedParts::make_boxes(const Scene& scene, const std::vector<std::uint32_t>& part_of_vertex,
@@ -72,22 +75,6 @@ void ClosedParts::make_boxes(const Scene& scene, const std::vector<std::uint32_t
     box.lower = glm::min(box.lower, position);
     box.upper = glm::max(box.upper, position);
   }
-}
-
-void ClosedParts::make_runs(const Scene& scene, const std::vector<std::uint32_t>& part_of_vertex,
-                            const Executor& executor) {
-  const Pieces pieces(executor, scene.face_count(), kLeastPiece);
-  std::vector<std::vector<Run>> runs(pieces.size());
-  executor.for_each(pieces.size(), [&](std::size_t piece, int) {
-    std::vector<Run>& some = runs[piece];
-    for (std::size_t face = pieces.begin(piece); face != pieces.end(piece); ++face) {
-      const std::uint32_t vertex = scene.mesh().triangles[face][0];
-      const std::uint32_t part = part_of_vertex[scene.welded().empty() ? vertex : scene.welded()[vertex]];
-      if (some.empty() || some.back().part != part) some.push_back({static_cast<std::uint32_t>(face), part});
-    }
-  });
-  for (const std::vector<Run>& some : runs) runs_.insert(runs_.end(), some.begin(), some.end());
-  runs_.shrink_to_fit();
 }
 
 /// Calls visit(part, first_face, end_face) for the runs of closed parts.

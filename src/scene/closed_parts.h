@@ -50,7 +50,6 @@ class ClosedParts {
   static constexpr std::uint32_t kOpen = 0xffffffffu;
 
   void make_boxes(const Scene& scene, const std::vector<std::uint32_t>& part_of_vertex, std::size_t part_count);
-  void make_runs(const Scene& scene, const std::vector<std::uint32_t>& part_of_vertex, const Executor& executor);
   void ask_ray(const Scene& scene, const Vector& point, int direction, std::vector<std::uint8_t>& answers) const;
 
   template <class Visit>

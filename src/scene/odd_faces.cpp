@@ -37,11 +37,10 @@ Oddity oddity_of(const Mesh& mesh, std::size_t face, const std::vector<std::uint
   return repeats_vertex(welded_corners(mesh.triangles[face], welded)) || is_degenerate(a, b, c) ? kZeroArea : kHasArea;
 }
 
-Key sorted(Key key) {
-  if (key[0] > key[1]) std::swap(key[0], key[1]);
-  if (key[1] > key[2]) std::swap(key[1], key[2]);
-  if (key[0] > key[1]) std::swap(key[0], key[1]);
-  return key;
+Key sorted(const Key& key) {
+  const auto [a, b, c] = key;  // without branches: which is greater is hard to foresee
+  const std::uint32_t least = std::min(std::min(a, b), c), most = std::max(std::max(a, b), c);
+  return {least, a ^ b ^ c ^ least ^ most, most};
 }
 
 }  // namespace

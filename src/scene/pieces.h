@@ -20,6 +20,8 @@ class Pieces {
   std::size_t size() const { return size_; }
   std::size_t begin(std::size_t piece) const { return count_ / size_ * piece + std::min(piece, count_ % size_); }
   std::size_t end(std::size_t piece) const { return begin(piece + 1); }
+  /// The same as begin, to add to an iterator.
+  std::ptrdiff_t offset(std::size_t piece) const { return static_cast<std::ptrdiff_t>(begin(piece)); }
 
  private:
   std::size_t count_, size_;

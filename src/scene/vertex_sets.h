@@ -44,7 +44,7 @@ class VertexSets {
   std::size_t size() const { return parents_.size(); }
 
  private:
-  static constexpr std::size_t kLeastPiece = 1 << 16;
+  static constexpr std::size_t kLeastPiece = 1 << 15;
 
   std::atomic_ref<std::uint32_t> cell(std::uint32_t vertex) { return std::atomic_ref(parents_[vertex]); }
   std::uint32_t parent(std::uint32_t vertex) { return cell(vertex).load(std::memory_order_relaxed); }
