@@ -12,7 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "math/elementary.h"
+#include "math/dvector.h"
+#include "render/shade_picture.h"
 
 namespace {
 
@@ -20,8 +21,25 @@ using namespace facemap;
 
 constexpr int kSize = 1024;  // pixels a side
 
+// Area-weighted, over all faces of a vertex.
+void add_smooth_normals(Mesh& mesh) {
+  std::vector<DVector> sums(mesh.positions.size(), DVector(0));
+  for (const Corners& t : mesh.triangles) {
+    const DVector a(mesh.positions[t[0]]), b(mesh.positions[t[1]]), c(mesh.positions[t[2]]);
+    for (const std::uint32_t corner : t) sums[corner] += cross(b - a, c - a);
+  }
+  for (const DVector& sum : sums) mesh.normals.push_back(Vector(sum));
+  mesh.normal_corners = mesh.triangles;
+}
+
+GeneratedScene generate_smooth(const std::string& name) {
+  GeneratedScene made = generate_scene(name);
+  add_smooth_normals(made.mesh);
+  return made;
+}
+
 struct Picture {
-  Picture(const std::string& name, ProjectionKind kind) : Picture(generate_scene(name), kind) {}
+  Picture(const std::string& name, ProjectionKind kind) : Picture(generate_smooth(name), kind) {}
 
   Picture(GeneratedScene made, ProjectionKind kind)
       : scene(std::move(made.mesh)),
@@ -68,8 +86,40 @@ void find_points(benchmark::State& state, const std::string& name, ProjectionKin
   state.counters["points"] = static_cast<double>(count);
 }
 
+// As if every light that a point faces were seen from it.
+void shade(benchmark::State& state, const std::string& name, Renderer::Normals normals) {
+  const Picture& picture = picture_of(name, ProjectionKind::Plane);
+  const Executor executor(1);
+  Renderer::Options options;
+  options.normals = normals;
+  const SeenPoints seen = find_seen_points(picture.scene, picture.grid, picture.nearest, picture.positions, executor);
+  std::vector<Color> colors(picture.grid.count());
+  for (auto _ : state) {
+    shade_points(picture.scene, picture.grid, seen, picture.lights, options, executor, colors);
+    benchmark::DoNotOptimize(colors.data());
+  }
+  state.counters["points"] = static_cast<double>(seen.points.size());
+}
+
+void find_moved(benchmark::State& state, const std::string& name) {
+  const Picture& picture = picture_of(name, ProjectionKind::Plane);
+  const Executor executor(1);
+  SeenPoints seen = find_seen_points(picture.scene, picture.grid, picture.nearest, picture.positions, executor);
+  std::size_t count = 0;
+  for (auto _ : state) {
+    const MovedPoints moved =
+        find_moved_points(picture.scene, picture.grid, seen, picture.lights, Renderer::Options(), executor);
+    count = moved.positions.size();
+  }
+  state.counters["moved"] = static_cast<double>(count);
+}
+
 }  // namespace
 
+BENCHMARK_CAPTURE(shade, chessboard_flat, "chessboard", Renderer::Normals::Flat)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(shade, bust_flat, "bust", Renderer::Normals::Flat)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(shade, bust_smooth, "bust", Renderer::Normals::Smooth)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(find_moved, bust, "bust")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(find_points, chessboard, "chessboard", ProjectionKind::Plane)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(find_points, grass, "grass", ProjectionKind::Plane)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(find_points, bust, "bust", ProjectionKind::Plane)->Unit(benchmark::kMillisecond);

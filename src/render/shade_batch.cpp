@@ -24,8 +24,11 @@ void ShadeBatch::take(const AskedPoints& points, std::size_t first, std::size_t 
   slots_.assign(points.faces.data() + first, count, rays_.slots);
   set_up_rays(points, first);
   set_up_faces();
+}
+
+void ShadeBatch::find_surfaces(bool smooth) {
   const float K[3] = {camera_.x, camera_.y, camera_.z};
-  simd::find_surfaces(slots_.planes, faces_, rays_, K, smooth_, points_);
+  simd::find_surfaces(slots_.planes, faces_, rays_, K, smooth, points_);
 }
 
 void ShadeBatch::set_up_rays(const AskedPoints& points, std::size_t first) {
@@ -65,6 +68,7 @@ bool ShadeBatch::is_moved(std::size_t i, const Vector& position) const {
 }
 
 void ShadeBatch::find_moved(std::size_t first, std::vector<MovedPoint>& moved) {
+  find_surfaces(false);  // find_lifts needs no normals
   if (!simd::find_lifts(slots_.planes, faces_, rays_, Shader::kLeastLift, points_)) return;
   for (std::size_t i = 0; i < rays_.count; ++i) {
     if (points_.lift[i] == simd::kNoLift) continue;
@@ -78,6 +82,7 @@ void ShadeBatch::find_moved(std::size_t first, std::vector<MovedPoint>& moved) {
 
 void ShadeBatch::shade(const std::vector<simd::LightSource>& lights, bool inverse_square, const std::uint8_t* masks,
                        std::size_t stride) {
+  find_surfaces(smooth_);
   for (auto& component : points_.radiance) std::fill_n(component, rays_.count, 0.0);
   for (std::size_t byte = 0; byte < stride; ++byte) {
     for (std::size_t i = 0; i < rays_.count; ++i) lit_[i] = masks[i * stride + byte];

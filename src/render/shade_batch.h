@@ -27,7 +27,7 @@ class ShadeBatch {
   /// The scene and the rays must outlive it.
   ShadeBatch(const Scene& scene, const Vector& camera, const RayTable& rays, bool smooth);
 
-  /// Takes points first..first+count-1, at most simd::kSeenBatch, and finds their positions and normals.
+  /// Takes points first..first+count-1, at most simd::kSeenBatch.
   void take(const AskedPoints& points, std::size_t first, std::size_t count);
 
   /// Adds the moved points among them, with `first` as the number of the first point. Throws Error if one is not
@@ -42,6 +42,7 @@ class ShadeBatch {
  private:
   void set_up_rays(const AskedPoints& points, std::size_t first);
   void set_up_faces();
+  void find_surfaces(bool smooth);
   bool is_moved(std::size_t i, const Vector& position) const;
 
   const Scene& scene_;

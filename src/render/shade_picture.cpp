@@ -43,6 +43,38 @@ void for_each_batch(const Scene& scene, const SampleGrid& grid, const AskedPoint
   });
 }
 
+// A bit set for each light.
+std::vector<std::uint8_t> full_mask(std::size_t light_count) {
+  std::vector<std::uint8_t> mask((light_count + 7) / 8);
+  for (std::size_t l = 0; l < light_count; ++l) mask[l / 8] |= static_cast<std::uint8_t>(1u << (l % 8));
+  return mask;
+}
+
+// The moved points of all chunks, one after the other; `found` is used up.
+void join(std::vector<std::vector<MovedPoint>>& found, std::size_t light_count, const Executor& executor,
+          MovedPoints& moved, SeenPoints& seen) {
+  std::vector<std::size_t> starts(found.size() + 1);
+  for (std::size_t chunk = 0; chunk < found.size(); ++chunk) starts[chunk + 1] = starts[chunk] + found[chunk].size();
+  moved.positions.resize(starts.back());
+  moved.owners.resize(starts.back());
+  moved.points.samples.resize(starts.back());
+  moved.masks.resize(starts.back() * seen.stride);
+  const std::vector<std::uint8_t> full = full_mask(light_count), none(seen.stride);
+  executor.for_each(found.size(), [&](std::size_t chunk, int) {
+    std::size_t i = starts[chunk];
+    for (const MovedPoint& point : found[chunk]) {
+      moved.positions[i] = point.position;
+      moved.owners[i] = point.owner;
+      moved.points.samples[i] = seen.points.samples[point.owner];
+      std::copy(full.begin(), full.end(), moved.masks.data() + i * seen.stride);
+      std::copy(none.begin(), none.end(), seen.masks.data() + point.owner * seen.stride);
+      ++i;
+    }
+    found[chunk] = {};
+  });
+  place_points(moved.positions, executor, moved.points);
+}
+
 }  // namespace
 
 void put_back_masks(const MovedPoints& moved, SeenPoints& seen) {
@@ -59,30 +91,12 @@ MovedPoints find_moved_points(const Scene& scene, const SampleGrid& grid, SeenPo
   if (options.normals == Renderer::Normals::Flat || !options.shadow_terminator_fix) return moved;
 
   std::vector<std::vector<MovedPoint>> found(chunks_of(seen.points.size()));
-  for_each_batch(
-      scene, grid, seen.points, true, executor,
-      [&](ShadeBatch& batch, std::size_t first, std::size_t chunk) { batch.find_moved(first, found[chunk]); });
-  std::size_t count = 0;
-  for (const auto& some : found) count += some.size();
-  moved.positions.reserve(count);
-  moved.owners.reserve(count);
-  for (auto& some : found) {
-    for (const MovedPoint& point : some) {
-      moved.positions.push_back(point.position);
-      moved.owners.push_back(point.owner);
-    }
-    some = {};
-  }
-  moved.points = place_points(moved.positions);
-  moved.points.samples.resize(count);
-  moved.masks.resize(count * seen.stride);
-  for (std::size_t i = 0; i < count; ++i) {
-    moved.points.samples[i] = seen.points.samples[moved.owners[i]];
-    std::fill_n(seen.masks.begin() + static_cast<std::ptrdiff_t>(moved.owners[i] * seen.stride), seen.stride, 0);
-    for (std::size_t l = 0; l < lights.size(); ++l) {
-      moved.masks[i * seen.stride + l / 8] |= static_cast<std::uint8_t>(1u << (l % 8));
-    }
-  }
+  for_each_batch(scene, grid, seen.points, true, executor,
+                 [&](ShadeBatch& batch, std::size_t first, std::size_t chunk) {
+                   found[chunk].reserve(kChunk);
+                   batch.find_moved(first, found[chunk]);
+                 });
+  join(found, lights.size(), executor, moved, seen);
   return moved;
 }
 

@@ -26,7 +26,7 @@ enum Lift : std::int32_t {
 void find_surfaces(const PlaneBatch& planes, const ShadedFaces& faces, const RayBatch& rays, const float K[3],
                    bool smooth, ShadedPoints& points);
 
-/// After find_surfaces with smooth normals: fills moved and lift. `least_lift` is relative to a face's largest
+/// After find_surfaces, for faces with normals: fills moved and lift. `least_lift` is relative to a face's largest
 /// coordinate. Returns whether any point may be lifted.
 bool find_lifts(const PlaneBatch& planes, const ShadedFaces& faces, const RayBatch& rays, double least_lift,
                 ShadedPoints& points);

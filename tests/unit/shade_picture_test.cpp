@@ -196,7 +196,8 @@ TEST(ShadePicture, PlacesFloatPointsWithinTheirError) {
     const double size = random.chance(0.2) ? 0 : std::pow(2.0, random.between(-60, 60));
     const DVector centre = random.in_cube() * std::pow(2.0, random.between(-60, 60));
     for (Vector& p : positions) p = Vector(centre + random.in_cube() * size);
-    const AskedPoints points = place_points(positions);
+    AskedPoints points;
+    place_points(positions, Executor(1), points);
     ASSERT_EQ(points.size(), positions.size());
     for (std::size_t i = 0; i < positions.size(); ++i) {
       const DVector stored = points.origin + DVector(points.x[i], points.y[i], points.z[i]) * points.step;
