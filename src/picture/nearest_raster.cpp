@@ -7,6 +7,7 @@
 #include "math/exact_sign.h"
 #include "picture/nearest_contests.h"
 #include "picture/nearest_queues.h"
+#include "scene/reserve_pages.h"
 #include "simd/nearest_draw.h"
 
 namespace facemap {
@@ -27,11 +28,13 @@ class PlaneRaster {
     const Mesh& mesh = scene.mesh();
     source_ = {mesh.triangles.data()->data(), &mesh.positions.data()->x};
     points_ = std::make_unique_for_overwrite<float[]>(2 * (mesh.positions.size() + simd::kVertexRoom));
-    w_ = std::make_unique<float[]>(grid.count());
+    reserve_pages(w_, grid.count());
+    reserve_pages(nearest_.faces, grid.count());
     keeps_all_ = scene.kept_faces().size() == scene.face_count();
   }
 
   NearestFaces run(Counters* counters) {
+    w_.assign(grid_.count(), 0);
     nearest_.faces.assign(grid_.count(), kNoFace);
     project();
     if (executor_.threads() == 1) {
@@ -116,7 +119,7 @@ class PlaneRaster {
   }
 
   simd::RasterTarget target(Band& band) {
-    return {w_.get(),       nearest_.faces.data(), static_cast<std::uint32_t>(grid_.columns()),
+    return {w_.data(),       nearest_.faces.data(), static_cast<std::uint32_t>(grid_.columns()),
             band.first_row, band.last_row,         &band.contests};
   }
 
@@ -183,7 +186,8 @@ class PlaneRaster {
   const Executor& executor_;
   simd::FaceSource source_;
   bool keeps_all_ = false;
-  std::unique_ptr<float[]> points_, w_;
+  std::unique_ptr<float[]> points_;
+  std::vector<float> w_;
   NearestFaces nearest_;
   std::vector<Band> bands_;
 };
