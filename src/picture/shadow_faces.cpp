@@ -63,62 +63,53 @@ std::size_t bytes_of(const std::vector<T>& v) {
 }
 
 template <class T>
-void drop(std::vector<T>& v, std::size_t count) {
-  v.erase(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(count));
+void move_to_front(T* array, std::size_t from, std::size_t end) {
+  std::copy(array + from, array + end, array);
 }
 
 }  // namespace
-
-void ShadowFaces::Queue::push(std::uint32_t f, std::int32_t c, std::int32_t r, float n) {
-  face.push_back(f);
-  columns.push_back(c);
-  rows.push_back(r);
-  nearest.push_back(n);
-}
-
-void ShadowFaces::Queue::drop_front(std::size_t count) {
-  drop(face, count);
-  drop(columns, count);
-  drop(rows, count);
-  drop(nearest, count);
-}
 
 void ShadowFaces::run(const ShadowRun& run, ShadowPoints& points, Counters& counters) {
   const Mesh& mesh = run.scene.mesh();
   const std::size_t vertices = mesh.positions.size();
   if (places_.size() < 3 * (vertices + 16)) places_.resize(3 * (vertices + 16));
+  const bool has_odd_faces = run.scene.kept_faces().size() != mesh.face_count();
   simd::project_vertices(run.frame, &mesh.positions[0].x, vertices, places_.data());
 
-  queue_ = {};
+  queue_.count = 0;
   undecided_.clear();
   for (std::size_t first = 0; first < mesh.face_count(); first += kShadowFaces) {
-    const std::size_t last = std::min(first + kShadowFaces, mesh.face_count());
+    const std::size_t last = std::min(first + kShadowFaces, mesh.face_count()), waiting = queue_.count;
     simd::sift_faces(
         {mesh.triangles[0].data(), places_.data(), run.skip_entries, first, last, points.raster(), &points.farthest()},
-        sifted_);
-    queue_sifted(run.scene);
-    queue_odd(run, points.raster());
-    test_queue(run, points, queue_.face.size() / kGroup * kGroup, counters);
+        queue_);
+    queue_across(run, points.raster());
+    if (has_odd_faces) drop_odd_faces(run.scene, waiting);
+    test_first(run, points, queue_.count / kGroup * kGroup, counters);
     if (undecided_.size() > kMostUndecided) resolve(run, points);
   }
-  test_queue(run, points, queue_.face.size(), counters);
+  test_first(run, points, queue_.count, counters);
   resolve(run, points);
 }
 
-void ShadowFaces::queue_sifted(const Scene& scene) {
-  for (std::size_t i = 0; i < sifted_.count; ++i) {
-    if (!scene.is_kept(sifted_.face[i])) continue;
-    queue_.push(sifted_.face[i], sifted_.columns[i], sifted_.rows[i], sifted_.nearest[i]);
+void ShadowFaces::drop_odd_faces(const Scene& scene, std::size_t first) {
+  std::size_t kept = first;
+  for (std::size_t i = first; i < queue_.count; ++i) {
+    if (!scene.is_kept(queue_.face[i])) continue;
+    queue_.face[kept] = queue_.face[i];
+    queue_.columns[kept] = queue_.columns[i];
+    queue_.rows[kept] = queue_.rows[i];
+    queue_.nearest[kept] = queue_.nearest[i];
+    ++kept;
   }
+  queue_.count = kept;
 }
 
-void ShadowFaces::queue_odd(const ShadowRun& run, const simd::ShadowRaster& raster) {
-  for (std::size_t i = 0; i < sifted_.odd_count; ++i) {
-    const std::uint32_t face = sifted_.odd[i];
-    if (!run.scene.is_kept(face)) continue;
+void ShadowFaces::queue_across(const ShadowRun& run, const simd::ShadowRaster& raster) {
+  for (std::size_t i = 0; i < queue_.across_count; ++i) {
     Range u[2], v[2];  // in front, behind
     bool is_placed = true;
-    for (const std::uint32_t vertex : run.scene.mesh().triangles[face]) {
+    for (const std::uint32_t vertex : run.scene.mesh().triangles[queue_.across[i]]) {
       const float* place = &places_[3 * static_cast<std::size_t>(vertex)];
       is_placed = is_placed && !std::isnan(place[2]);
       u[place[2] < 0].add(place[0]);
@@ -127,14 +118,24 @@ void ShadowFaces::queue_odd(const ShadowRun& run, const simd::ShadowRaster& rast
     const Range across = is_placed ? range_across(u[0], u[1]) : Range{-1, 1};
     const Range along = is_placed ? range_across(v[0], v[1]) : Range{-1, 1};
     if (!meets_raster(across) || !meets_raster(along)) continue;
-    queue_.push(face, texels_of(across, raster.columns), texels_of(along, raster.rows), kNoBound);
+    const std::size_t n = queue_.count++;
+    queue_.face[n] = queue_.across[i];
+    queue_.columns[n] = texels_of(across, raster.columns);
+    queue_.rows[n] = texels_of(along, raster.rows);
+    queue_.nearest[n] = kNoBound;
   }
 }
 
-void ShadowFaces::test_queue(const ShadowRun& run, ShadowPoints& points, std::size_t count, Counters& counters) {
+// Tests the first `count` faces of the queue and takes them out of it.
+void ShadowFaces::test_first(const ShadowRun& run, ShadowPoints& points, std::size_t count, Counters& counters) {
   if (count == 0) return;
   const std::size_t groups = (count + kGroup - 1) / kGroup, whole = groups * kGroup;
-  for (std::size_t i = count; i < whole; ++i) queue_.push(queue_.face[0], 0, kNoRows, 0);
+  for (std::size_t i = count; i < whole; ++i) {
+    queue_.face[i] = queue_.face[0];
+    queue_.columns[i] = 0;
+    queue_.rows[i] = kNoRows;
+    queue_.nearest[i] = 0;
+  }
   corners_.resize(std::max(corners_.size(), groups));
   planes_.resize(std::max(planes_.size(), groups));
   sides_.resize(std::max(sides_.size(), whole));
@@ -153,11 +154,15 @@ void ShadowFaces::test_queue(const ShadowRun& run, ShadowPoints& points, std::si
   simd::SortedPoints sorted = points.sorted();
   for (std::size_t g = 0; g < groups; ++g) {
     const std::size_t i = g * kGroup;
-    const simd::ShadowBatch batch{&planes_[g],     &queue_.face[i],    &queue_.columns[i],
-                                  &queue_.rows[i], &queue_.nearest[i], &sides_[i]};
+    const simd::ShadowBatch batch{&planes_[g],     queue_.face + i,    queue_.columns + i,
+                                  queue_.rows + i, queue_.nearest + i, &sides_[i]};
     counters.by_float += simd::test_points(batch, sorted, jobs_, undecided_);
   }
-  queue_.drop_front(whole);
+  move_to_front(queue_.face, count, queue_.count);
+  move_to_front(queue_.columns, count, queue_.count);
+  move_to_front(queue_.rows, count, queue_.count);
+  move_to_front(queue_.nearest, count, queue_.count);
+  queue_.count -= count;
 }
 
 // Sides that doubles leave open are asked of exact arithmetic; faces seen edge-on and entry faces are passed over.
@@ -181,17 +186,14 @@ void ShadowFaces::settle_sides(const ShadowRun& run, std::size_t count, Counters
 void ShadowFaces::resolve(const ShadowRun& run, ShadowPoints& points) {
   for (const simd::UndecidedPair& pair : undecided_) {
     if (points.is_blocked(pair.place)) continue;
-    const std::uint32_t point = points.point_at(pair.place);
-    if (run.asked.faces[point] == pair.face) continue;
-    if (run.blocks_exactly(point, pair.face, pair.side)) points.set_blocked(pair.place);
+    if (run.blocks_exactly(points.point_at(pair.place), pair.face, pair.side)) points.set_blocked(pair.place);
   }
   undecided_.clear();
 }
 
 std::size_t ShadowFaces::memory_bytes() const noexcept {
-  return sizeof(*this) + bytes_of(places_) + bytes_of(queue_.face) + bytes_of(queue_.columns) + bytes_of(queue_.rows) +
-         bytes_of(queue_.nearest) + bytes_of(corners_) + bytes_of(planes_) + bytes_of(sides_) + bytes_of(jobs_) +
-         bytes_of(undecided_);
+  return sizeof(*this) + bytes_of(places_) + bytes_of(corners_) + bytes_of(planes_) + bytes_of(sides_) +
+         bytes_of(jobs_) + bytes_of(undecided_);
 }
 
 }  // namespace facemap

@@ -17,7 +17,6 @@ struct ShadowRun {
   const simd::ShadowFrame& frame;
   double slack;  ///< of set_up_planes
   const std::uint8_t* skip_entries;
-  const AskedPoints& asked;
   const BlocksExactly& blocks_exactly;
 };
 
@@ -30,25 +29,14 @@ class ShadowFaces {
   std::size_t memory_bytes() const noexcept;
 
  private:
-  // Faces whose planes are to be set up, in step with each other.
-  struct Queue {
-    std::vector<std::uint32_t> face;
-    std::vector<std::int32_t> columns, rows;
-    std::vector<float> nearest;
-
-    void push(std::uint32_t f, std::int32_t c, std::int32_t r, float n);
-    void drop_front(std::size_t count);
-  };
-
-  void queue_sifted(const Scene& scene);
-  void queue_odd(const ShadowRun& run, const simd::ShadowRaster& raster);
-  void test_queue(const ShadowRun& run, ShadowPoints& points, std::size_t count, Counters& counters);
+  void drop_odd_faces(const Scene& scene, std::size_t first);
+  void queue_across(const ShadowRun& run, const simd::ShadowRaster& raster);
+  void test_first(const ShadowRun& run, ShadowPoints& points, std::size_t count, Counters& counters);
   void settle_sides(const ShadowRun& run, std::size_t count, Counters& counters);
   void resolve(const ShadowRun& run, ShadowPoints& points);
 
   std::vector<float> places_;  ///< of vertices, three a vertex
-  simd::SiftedFaces sifted_;
-  Queue queue_;
+  simd::SiftedFaces queue_;    ///< faces to be tested
   std::vector<simd::ShadowCorners> corners_;
   std::vector<simd::ShadowPlanes> planes_;
   std::vector<std::int8_t> sides_;

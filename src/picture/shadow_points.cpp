@@ -46,8 +46,9 @@ void ShadowPoints::sort(const simd::PointsToProject& from, std::size_t wanted, s
   raster_ = raster_for(wanted);
   make_room(records_, wanted + kPadding);
   make_room(texels_, wanted + kPadding);
+  make_room(points_, wanted + kPadding);
   rest.resize(wanted + kPadding);
-  simd::ProjectedPoints to{records_.data(), texels_.data(), rest.data()};
+  simd::ProjectedPoints to{records_.data(), texels_.data(), points_.data(), rest.data()};
   simd::project_points(from, raster_, to);
   rest.resize(to.rest_count);
   count_ = to.count;
@@ -58,9 +59,11 @@ void ShadowPoints::sort(const simd::PointsToProject& from, std::size_t wanted, s
 }
 
 void ShadowPoints::count_texels() {
-  const std::size_t texels = static_cast<std::size_t>(raster_.columns) * static_cast<std::size_t>(raster_.rows);
+  const std::size_t texels = texel_count();
   begins_.assign(texels + 1 + kPadding, 0);
-  for (std::size_t i = 0; i < count_; ++i) ++begins_[texels_[i]];
+  std::uint32_t* counts = begins_.data();
+  const std::uint32_t *texel = texels_.data(), *end = texel + count_;
+  while (texel != end) ++counts[*texel++];
   std::uint32_t sum = 0;
   for (std::size_t t = 0; t <= texels; ++t) {
     const std::uint32_t count = begins_[t];
@@ -79,10 +82,18 @@ void ShadowPoints::fill_blocks() {
   const auto put = [&](std::size_t place, const simd::ShadowRecord& record) {
     std::memcpy(records + place * sizeof(record), &record, sizeof(record));
   };
-  for (std::size_t i = 0; i < count_; ++i) put(begins_[texels_[i]]++, records_[i]);
+  make_room(point_of_place_, count_);
+  // Pointers of its own: the compiler can't know that the vectors stay where they are.
+  std::uint32_t *next = begins_.data(), *point_of_place = point_of_place_.data();
+  const std::uint32_t *texels = texels_.data(), *points = points_.data();
+  const simd::ShadowRecord* from = records_.data();
+  for (std::size_t i = 0, count = count_; i < count; ++i) {
+    const std::uint32_t place = next[texels[i]]++;
+    put(place, from[i]);
+    point_of_place[place] = points[i];
+  }
   // Each texel's begin has moved to the next one's.
-  const std::size_t texels = static_cast<std::size_t>(raster_.columns) * static_cast<std::size_t>(raster_.rows);
-  std::memmove(begins_.data() + 1, begins_.data(), texels * sizeof(begins_[0]));
+  std::memmove(begins_.data() + 1, begins_.data(), texel_count() * sizeof(begins_[0]));
   begins_[0] = 0;
 
   // The last block's spare places hold points that every face is behind, and are blocked from the start.
@@ -143,8 +154,8 @@ simd::SortedPoints ShadowPoints::sorted() noexcept {
 }
 
 std::size_t ShadowPoints::memory_bytes() const noexcept {
-  return bytes_of(records_) + bytes_of(texels_) + bytes_of(begins_) + bytes_of(blocks_) + bytes_of(farthest_of_block_) +
-         bytes_of(blocked_) + bytes_of(cells_);
+  return bytes_of(records_) + bytes_of(texels_) + bytes_of(points_) + bytes_of(point_of_place_) + bytes_of(begins_) +
+         bytes_of(blocks_) + bytes_of(farthest_of_block_) + bytes_of(blocked_) + bytes_of(cells_);
 }
 
 }  // namespace facemap

@@ -21,10 +21,13 @@ class ShadowPoints {
   const simd::FarthestPyramid& farthest() const noexcept { return pyramid_; }
   simd::SortedPoints sorted() noexcept;
 
-  std::uint32_t point_at(std::uint32_t place) const {
-    return blocks_[place / simd::ShadowBlock::kPoints].point[place % simd::ShadowBlock::kPoints];
-  }
+  std::uint32_t point_at(std::uint32_t place) const { return point_of_place_[place]; }
   bool is_blocked(std::uint32_t place) const { return (blocked_[place / 16] >> (place % 16) & 1) != 0; }
+  /// Of the sixteen places from `first`, a multiple of 16, on: one bit a point, places without a point left out.
+  std::uint32_t blocked_from(std::size_t first) const {
+    const std::size_t left = count_ - first;
+    return blocked_[first / 16] & (left < 16 ? (1u << left) - 1 : 0xffffu);
+  }
   void set_blocked(std::uint32_t place) {
     blocked_[place / 16] = static_cast<std::uint16_t>(blocked_[place / 16] | 1u << (place % 16));
   }
@@ -32,6 +35,9 @@ class ShadowPoints {
   std::size_t memory_bytes() const noexcept;
 
  private:
+  std::size_t texel_count() const {
+    return static_cast<std::size_t>(raster_.columns) * static_cast<std::size_t>(raster_.rows);
+  }
   void count_texels();
   void fill_blocks();
   void build_pyramid();
@@ -41,6 +47,8 @@ class ShadowPoints {
   std::size_t block_count_ = 0;
   std::vector<simd::ShadowRecord> records_;
   std::vector<std::uint32_t> texels_;
+  std::vector<std::uint32_t> points_;
+  std::vector<std::uint32_t> point_of_place_;
   std::vector<std::uint32_t> begins_;  ///< while sorting: the next place of each texel's next point
   std::vector<simd::ShadowBlock> blocks_;
   std::vector<float> farthest_of_block_;

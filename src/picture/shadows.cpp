@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <limits>
 
 #include "picture/gnomonic.h"
 #include "picture/shadow_faces.h"
@@ -48,13 +48,6 @@ constexpr std::size_t kMostVertices = std::size_t{1} << 29;
 
 constexpr int kSides = 6;
 
-// The asked points whose bit is set, and where they lie.
-struct Wanted {
-  std::size_t count = 0;
-  std::array<double, 3> lower{HUGE_VAL, HUGE_VAL, HUGE_VAL};  // of their integers
-  std::array<double, 3> upper{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-};
-
 struct Side {
   std::size_t count = 0;
   double nearest = HUGE_VAL;  // world units: the least of the points' greatest components
@@ -74,15 +67,15 @@ class LightPass {
         from_light_(points.origin - DVector(light)) {}
 
   void run() {
-    const Wanted wanted = find_wanted();
+    const simd::WantedPoints wanted = find_wanted();
     if (wanted.count == 0) return;
     if (scene_.mesh().positions.size() > kMostVertices) return ask_all_singly();
-    const OffsetBox box{from_light_ + points_.step * DVector(wanted.lower[0], wanted.lower[1], wanted.lower[2]),
-                        from_light_ + points_.step * DVector(wanted.upper[0], wanted.upper[1], wanted.upper[2])};
+    const auto offset = [&](const std::int32_t* q) { return from_light_ + points_.step * DVector(q[0], q[1], q[2]); };
+    const OffsetBox box{offset(wanted.lower), offset(wanted.upper)};
     size_ = 0;
     for (int k = 0; k < 3; ++k) {
-      size_ +=
-          std::fabs(from_light_[k]) + points_.step * std::max(std::fabs(wanted.lower[k]), std::fabs(wanted.upper[k]));
+      size_ += std::fabs(from_light_[k]) + points_.step * std::max(std::fabs(static_cast<double>(wanted.lower[k])),
+                                                                   std::fabs(static_cast<double>(wanted.upper[k])));
     }
     if (const auto frame = frame_towards(light_, box)) {
       run_frame(*frame, 1, wanted.count, nearest_of(*frame, box));
@@ -95,30 +88,19 @@ class LightPass {
 
  private:
   // Sets wanted[] to 1 where the point's bit is set.
-  Wanted find_wanted() {
-    const std::size_t count = points_.size();
-    parts_.wanted.assign(count + kPadding, 0);
+  simd::WantedPoints find_wanted() {
+    const std::size_t count = points_.size(), stride = mask_.stride;
+    parts_.wanted.resize(count + kPadding);
     const std::uint8_t* masks = mask_.masks + mask_.bit / 8;
+    std::uint8_t* wanted = parts_.wanted.data();
     const int shift = mask_.bit % 8;
-    Wanted wanted;
-    std::array<std::int32_t, 3> lower, upper;
-    lower.fill(std::numeric_limits<std::int32_t>::max());
-    upper.fill(std::numeric_limits<std::int32_t>::min());
-    for (std::size_t i = 0; i < count; ++i) {
-      if ((masks[i * mask_.stride] >> shift & 1) == 0) continue;
-      parts_.wanted[i] = 1;
-      ++wanted.count;
-      const std::int32_t q[3] = {points_.x[i], points_.y[i], points_.z[i]};
-      for (int k = 0; k < 3; ++k) {
-        lower[k] = std::min(lower[k], q[k]);
-        upper[k] = std::max(upper[k], q[k]);
-      }
+    const auto bit = [=](std::uint8_t mask) { return static_cast<std::uint8_t>(mask >> shift & 1); };
+    if (stride == 1) {
+      for (std::size_t i = 0; i < count; ++i) wanted[i] = bit(masks[i]);
+    } else {
+      for (std::size_t i = 0; i < count; ++i) wanted[i] = bit(masks[i * stride]);
     }
-    for (int k = 0; k < 3; ++k) {
-      wanted.lower[k] = lower[k];
-      wanted.upper[k] = upper[k];
-    }
-    return wanted;
+    return simd::measure_wanted(points_.x.data(), points_.y.data(), points_.z.data(), wanted, count);
   }
 
   double nearest_of(const simd::ShadowFrame& frame, const OffsetBox& box) const {
@@ -155,8 +137,16 @@ class LightPass {
     // products and three sums: 13 roundings of 2^-53.
     const double error = frame.largest * (2 * points_.error + 0x1p-49 * size_);
     const double slack = std::clamp(error / nearest * 0x1p24, kLeastSlack, kGreatestSlack);
-    simd::PointsToProject from{
-        points_.x.data(), points_.y.data(), points_.z.data(), parts_.wanted.data(), bit, points_.size(), {}, {}, 0};
+    simd::PointsToProject from{points_.x.data(),
+                               points_.y.data(),
+                               points_.z.data(),
+                               points_.faces.data(),
+                               parts_.wanted.data(),
+                               bit,
+                               points_.size(),
+                               {},
+                               {},
+                               0};
     for (int i = 0; i < 3; ++i) {
       from.offset[i] = 0;
       for (int k = 0; k < 3; ++k) {
@@ -168,8 +158,7 @@ class LightPass {
 
     parts_.points.sort(from, wanted, parts_.rest);
     if (parts_.points.count() > 0) {
-      parts_.faces.run({scene_, light_, frame, slack, skip_entries_, points_, blocks_exactly_}, parts_.points,
-                       counters_);
+      parts_.faces.run({scene_, light_, frame, slack, skip_entries_, blocks_exactly_}, parts_.points, counters_);
       clear_blocked_places();
     }
     ask_rest();
@@ -177,8 +166,10 @@ class LightPass {
 
   void clear_blocked_places() {
     const ShadowPoints& points = parts_.points;
-    for (std::uint32_t place = 0; place < points.count(); ++place) {
-      if (points.is_blocked(place)) clear(points.point_at(place));
+    for (std::uint32_t first = 0; first < points.count(); first += 16) {
+      for (std::uint32_t blocked = points.blocked_from(first); blocked != 0; blocked &= blocked - 1) {
+        clear(points.point_at(first + static_cast<std::uint32_t>(std::countr_zero(blocked))));
+      }
     }
   }
 

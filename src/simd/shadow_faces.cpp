@@ -146,10 +146,10 @@ HWY_INLINE void sift_some(const FacesToSift& from, std::size_t first, const std:
   // NaN is neither in front nor behind; Min and Max are not to be asked of it.
   const auto is_in_front = hn::And(hn::Gt(a.w, zero), hn::And(hn::Gt(b.w, zero), hn::Gt(c.w, zero)));
   const auto is_behind = hn::And(hn::Lt(a.w, zero), hn::And(hn::Lt(b.w, zero), hn::Lt(c.w, zero)));
-  const auto is_odd = hn::AndNot(hn::Or(is_in_front, is_behind), is_asked);
+  const auto is_across = hn::AndNot(hn::Or(is_in_front, is_behind), is_asked);
   const auto face = hn::Add(hn::Iota(du, 0), hn::Set(du, static_cast<std::uint32_t>(first)));
-  if (!hn::AllFalse(d, is_odd)) {
-    to.odd_count += hn::CompressStore(face, hn::RebindMask(du, is_odd), du, to.odd + to.odd_count);
+  if (!hn::AllFalse(d, is_across)) {
+    to.across_count += hn::CompressStore(face, hn::RebindMask(du, is_across), du, to.across + to.across_count);
   }
 
   const auto u0 = hn::Sub(least(a.u, b.u, c.u), margin), u1 = hn::Add(greatest(a.u, b.u, c.u), margin);
@@ -183,7 +183,7 @@ HWY_INLINE void sift_some(const FacesToSift& from, std::size_t first, const std:
 
 void sift_faces(const FacesToSift& from, SiftedFaces& to) {
   const std::size_t lanes = hn::Lanes(DF());
-  to.count = to.odd_count = 0;
+  to.across_count = 0;
   std::size_t i = from.first;
   for (; i + lanes <= from.last; i += lanes) {
     const std::uint8_t* skip = from.skip_entries == nullptr ? nullptr : from.skip_entries + i;

@@ -36,21 +36,24 @@ struct FacesToSift {
 
 inline constexpr std::size_t kShadowFaces = 1024;
 
-/// Faces that may block some point, with the texels they may do it in. Room for 16 more than are looked at.
+/// Faces that may block some point, with the texels they may do it in.
 struct SiftedFaces {
-  std::uint32_t face[kShadowFaces + 16];
-  std::int32_t columns[kShadowFaces + 16];  ///< first | last << 16
-  std::int32_t rows[kShadowFaces + 16];     ///< first | last << 16
-  float nearest[kShadowFaces + 16];         ///< upper bound of w
+  /// For those that wait, those that are looked at, sixteen more that vectors reach.
+  static constexpr std::size_t kRoom = 2 * kShadowFaces + 32;
+
+  std::uint32_t face[kRoom];
+  std::int32_t columns[kRoom];  ///< first | last << 16
+  std::int32_t rows[kRoom];     ///< first | last << 16
+  float nearest[kRoom];         ///< upper bound of w
   std::size_t count = 0;
 
-  /// Faces with a corner behind the light or without a place: only their three planes say where they are.
-  std::uint32_t odd[kShadowFaces + 16];
-  std::size_t odd_count = 0;
+  /// Faces that cross the plane Z = 0 through the light, or have a corner without a place.
+  std::uint32_t across[kShadowFaces + 16];
+  std::size_t across_count = 0;
 };
 
-/// Leaves out faces that are off the raster, behind the light, behind all points or where there is none, and those of
-/// skip_entries that are surely turned towards the light.
+/// Appends faces to `to`, and replaces to.across. Leaves out faces that are off the raster, behind the light, behind
+/// all points or where there is none, and those of skip_entries that are surely turned towards the light.
 void sift_faces(const FacesToSift& from, SiftedFaces& to);
 
 }  // namespace facemap::simd

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/shadow_points.cpp"
@@ -22,11 +23,60 @@ using DHalfF = hn::Rebind<float, DD>;
 using DHalfI = hn::Rebind<std::int32_t, DD>;
 using DBytes = hn::Rebind<std::uint8_t, DU>;
 
+// ---- which, and where
+
+struct Bounds {
+  hn::Vec<DI> lower[3], upper[3];
+};
+
+HWY_INLINE std::size_t widen(Bounds& bounds, const std::int32_t* const* coordinates, const std::uint8_t* wanted,
+                             std::size_t first) {
+  const DI di;
+  const DU du;
+  const auto bytes = hn::PromoteTo(du, hn::LoadU(DBytes(), wanted + first));
+  const auto is_wanted = hn::RebindMask(di, hn::Ne(bytes, hn::Zero(du)));
+  if (hn::AllFalse(di, is_wanted)) return 0;
+  for (int k = 0; k < 3; ++k) {
+    const auto x = hn::LoadU(di, coordinates[k] + first);
+    bounds.lower[k] = hn::IfThenElse(is_wanted, hn::Min(bounds.lower[k], x), bounds.lower[k]);
+    bounds.upper[k] = hn::IfThenElse(is_wanted, hn::Max(bounds.upper[k], x), bounds.upper[k]);
+  }
+  return hn::CountTrue(di, is_wanted);
+}
+
+WantedPoints measure_wanted(const std::int32_t* x, const std::int32_t* y, const std::int32_t* z,
+                            const std::uint8_t* wanted, std::size_t count) {
+  const DI di;
+  const std::size_t lanes = hn::Lanes(di), whole = count / lanes * lanes;
+  Bounds bounds;
+  for (int k = 0; k < 3; ++k) {
+    bounds.lower[k] = hn::Set(di, std::numeric_limits<std::int32_t>::max());
+    bounds.upper[k] = hn::Set(di, std::numeric_limits<std::int32_t>::min());
+  }
+  WantedPoints measured{};
+  const std::int32_t* const coordinates[3] = {x, y, z};
+  for (std::size_t i = 0; i < whole; i += lanes) measured.count += widen(bounds, coordinates, wanted, i);
+  std::int32_t last[3][16] = {};
+  std::uint8_t last_wanted[64] = {};
+  const std::int32_t* const last_coordinates[3] = {last[0], last[1], last[2]};
+  for (int k = 0; k < 3; ++k) std::copy(coordinates[k] + whole, coordinates[k] + count, last[k]);
+  std::copy(wanted + whole, wanted + count, last_wanted);
+  measured.count += widen(bounds, last_coordinates, last_wanted, 0);
+  for (int k = 0; k < 3; ++k) {
+    measured.lower[k] = hn::GetLane(hn::MinOfLanes(di, bounds.lower[k]));
+    measured.upper[k] = hn::GetLane(hn::MaxOfLanes(di, bounds.upper[k]));
+  }
+  return measured;
+}
+
+// ---- onto the raster
+
 // Points are transformed this many at a time, in doubles, before they are divided.
 constexpr std::size_t kRun = 64;
 
 struct Run {
   alignas(64) float X[kRun], Y[kRun], Z[kRun];
+  alignas(64) std::uint32_t own_face[kRun];
 };
 
 // One coordinate of a row: ((m0 x + m1 y) + m2 z) + offset.
@@ -40,6 +90,7 @@ HWY_INLINE void transform(const PointsToProject& from, std::size_t first, Run& r
   const std::size_t count = std::min(kRun, from.count - first);
   const std::int32_t *px = from.x + first, *py = from.y + first, *pz = from.z + first;
   alignas(64) std::int32_t last_run[3][kRun];
+  std::copy_n(from.own_faces + first, count, run.own_face);
   if (count < kRun) {
     std::memset(last_run, 0, sizeof(last_run));
     px = std::copy_n(px, count, last_run[0]) - count;
@@ -95,11 +146,20 @@ void project_points(const PointsToProject& from, const ShadowRaster& raster, Pro
 
       const auto column = texel_of(u, raster.columns), row = texel_of(v, raster.rows);
       const auto texel = hn::Add(hn::Mul(row, hn::Set(DI(), raster.columns)), column);
+      const auto own_face = hn::BitCast(d, hn::Load(du, run.own_face + i));
+      if (hn::AllTrue(du, is_on)) {
+        hn::StoreInterleaved4(u, v, w, own_face, d, &to.records[to.count].u);
+        hn::StoreU(hn::BitCast(du, texel), du, to.texels + to.count);
+        hn::StoreU(number, du, to.points + to.count);
+        to.count += lanes;
+        continue;
+      }
       alignas(64) ShadowRecord records[16];
-      hn::StoreInterleaved4(u, v, w, hn::BitCast(d, number), d, &records[0].u);
-      alignas(64) std::uint8_t bits[8] = {};
+      hn::StoreInterleaved4(u, v, w, own_face, d, &records[0].u);
+      std::uint8_t bits[8] = {};
       hn::StoreMaskBits(du, is_on, bits);
       hn::CompressStore(hn::BitCast(du, texel), is_on, du, to.texels + to.count);
+      hn::CompressStore(number, is_on, du, to.points + to.count);
       for (unsigned on = bits[0] | static_cast<unsigned>(bits[1]) << 8; on != 0; on &= on - 1) {
         to.records[to.count++] = records[__builtin_ctz(on)];
       }
@@ -116,12 +176,12 @@ void finish_blocks(ShadowBlock* blocks, std::size_t count, float* farthest) {
     std::memcpy(records, &block, sizeof(records));
     auto least = hn::Set(d, 0x1p127f);
     for (std::size_t i = 0; i < ShadowBlock::kPoints; i += lanes) {
-      hn::Vec<DF> u, v, w, point;
-      hn::LoadInterleaved4(d, records + 4 * i, u, v, w, point);
+      hn::Vec<DF> u, v, w, own_face;
+      hn::LoadInterleaved4(d, records + 4 * i, u, v, w, own_face);
       hn::Store(u, d, block.u + i);
       hn::Store(v, d, block.v + i);
       hn::Store(w, d, block.w + i);
-      hn::Store(hn::BitCast(DU(), point), DU(), block.point + i);
+      hn::Store(hn::BitCast(DU(), own_face), DU(), block.own_face + i);
       least = hn::Min(least, w);
     }
     farthest[b] = hn::GetLane(hn::MinOfLanes(d, least));
@@ -136,6 +196,11 @@ namespace facemap::simd {
 
 void project_points(const PointsToProject& from, const ShadowRaster& raster, ProjectedPoints& to) {
   FACEMAP_DISPATCH(project_points)(from, raster, to);
+}
+
+WantedPoints measure_wanted(const std::int32_t* x, const std::int32_t* y, const std::int32_t* z,
+                            const std::uint8_t* wanted, std::size_t count) {
+  return FACEMAP_DISPATCH(measure_wanted)(x, y, z, wanted, count);
 }
 
 void finish_blocks(ShadowBlock* blocks, std::size_t count, float* farthest) {

@@ -13,14 +13,23 @@ struct alignas(64) ShadowBlock {
   float u[kPoints];
   float v[kPoints];
   float w[kPoints];
-  std::uint32_t point[kPoints];  ///< which of the asked points
+  std::uint32_t own_face[kPoints];  ///< never blocks its point
 };
 
 /// One point before it is in its block: the same four numbers side by side.
 struct ShadowRecord {
   float u, v, w;
-  std::uint32_t point;
+  std::uint32_t own_face;
 };
+
+/// Of the points with wanted[i] != 0: how many they are, and the box of their integers. `wanted` is readable for 64
+/// elements past its end.
+struct WantedPoints {
+  std::size_t count;
+  std::int32_t lower[3], upper[3];
+};
+WantedPoints measure_wanted(const std::int32_t* x, const std::int32_t* y, const std::int32_t* z,
+                            const std::uint8_t* wanted, std::size_t count);
 
 /// Asked points i with (wanted[i] & bit) != 0. (X, Y, Z) = matrix (x, y, z) + offset. `wanted` is readable for 64
 /// elements past its end.
@@ -28,6 +37,7 @@ struct PointsToProject {
   const std::int32_t* x;
   const std::int32_t* y;
   const std::int32_t* z;
+  const std::uint32_t* own_faces;
   const std::uint8_t* wanted;
   std::uint8_t bit;
   std::size_t count;
@@ -40,6 +50,7 @@ struct PointsToProject {
 struct ProjectedPoints {
   ShadowRecord* records;
   std::uint32_t* texels;  ///< row * columns + column
+  std::uint32_t* points;  ///< which of the asked points
   std::uint32_t* rest;    ///< numbers of the points that are too near or not on the raster
   std::size_t count = 0;
   std::size_t rest_count = 0;

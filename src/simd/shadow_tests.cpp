@@ -1,6 +1,7 @@
 #include "simd/shadow_tests.h"
 
 #include <algorithm>
+#include <cstring>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/shadow_tests.cpp"
@@ -137,57 +138,66 @@ HWY_INLINE bool append_jobs(BlockRun& run, const Spans& s, std::size_t i, const 
 
 // ---- tests
 
-HWY_INLINE unsigned bits_of(hn::Mask<DF> mask) {
+HWY_INLINE std::uint32_t bits_of(hn::Mask<DF> mask) {
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(DF(), mask, bytes);
-  return bytes[0] | static_cast<unsigned>(bytes[1]) << 8;
+  std::uint16_t bits;
+  std::memcpy(&bits, bytes, sizeof(bits));
+  return bits;
 }
 
-HWY_INLINE VF value_at(VF A, VF B, VF C, VF u, VF v) { return hn::Add(hn::Mul(A, u), hn::Add(hn::Mul(B, v), C)); }
+HWY_INLINE VF value_at(const float (*plane)[ShadowPlanes::kFaces], std::size_t face, VF u, VF v) {
+  const DF d;
+  const auto A = hn::Set(d, plane[0][face]), B = hn::Set(d, plane[1][face]), C = hn::Set(d, plane[2][face]);
+  return hn::Add(hn::Mul(A, u), hn::Add(hn::Mul(B, v), C));
+}
 
+// One bit a point.
 struct Verdicts {
-  unsigned yes = 0, open = 0;  // one bit a point
+  std::uint16_t yes;
+  std::uint16_t open;  // neither yes nor no, the face's own points apart
 };
 
-HWY_INLINE Verdicts verdicts_of(const ShadowPlanes& planes, std::size_t face, const ShadowBlock& block) {
+HWY_INLINE Verdicts verdicts_of(const ShadowPlanes& planes, std::size_t face, std::uint32_t id,
+                                const ShadowBlock& block) {
   const DF d;
-  Verdicts verdicts;
+  const DU du;
+  std::uint32_t yes = 0, no = 0;
   for (std::size_t i = 0; i < ShadowBlock::kPoints; i += kLanes) {
     const auto u = hn::Load(d, block.u + i), v = hn::Load(d, block.v + i), w = hn::Load(d, block.w + i);
-    VF edge[3];
-    for (int k = 0; k < 3; ++k) {
-      edge[k] = value_at(hn::Set(d, planes.edges[k][0][face]), hn::Set(d, planes.edges[k][1][face]),
-                         hn::Set(d, planes.edges[k][2][face]), u, v);
-    }
-    const auto height = value_at(hn::Set(d, planes.plane[0][face]), hn::Set(d, planes.plane[1][face]),
-                                 hn::Set(d, planes.plane[2][face]), u, v);
+    const auto height = value_at(planes.plane, face, u, v);
     const auto beyond = hn::Sub(height, hn::Mul(hn::Set(d, planes.plane[3][face]), w));
-    const auto lowest = hn::Min(hn::Min(edge[0], edge[1]), hn::Min(edge[2], beyond));
-    const auto may_block = hn::Ge(lowest, hn::Set(d, -1.0f));
-    if (hn::AllFalse(d, may_block)) continue;
-    const unsigned yes = bits_of(hn::Gt(lowest, hn::Set(d, 1.0f)));
-    verdicts.yes |= yes << i;
-    verdicts.open |= (bits_of(may_block) & ~yes) << i;
+    const auto inside = hn::Min(value_at(planes.edges[0], face, u, v),
+                                hn::Min(value_at(planes.edges[1], face, u, v), value_at(planes.edges[2], face, u, v)));
+    const auto lowest = hn::Min(inside, beyond);
+    const auto is_own = hn::RebindMask(d, hn::Eq(hn::Load(du, block.own_face + i), hn::Set(du, id)));
+    yes |= bits_of(hn::Gt(lowest, hn::Set(d, 1.0f))) << i;
+    no |= bits_of(hn::Or(hn::Lt(lowest, hn::Set(d, -1.0f)), is_own)) << i;
   }
-  return verdicts;
+  return {static_cast<std::uint16_t>(yes), static_cast<std::uint16_t>(~(yes | no))};
 }
+
+// Jobs whose verdicts are found before any of them counts: no branch hangs on a verdict.
+constexpr std::size_t kRun = 256;
 
 HWY_INLINE std::uint64_t run_jobs(const ShadowBatch& batch, SortedPoints& points, const std::uint32_t* jobs,
                                   std::size_t count, std::vector<UndecidedPair>& undecided) {
+  Verdicts verdicts[kRun];
+  for (std::size_t j = 0; j < count; ++j) {
+    const std::uint32_t face = jobs[j] & 15;
+    verdicts[j] = verdicts_of(*batch.planes, face, batch.face[face], points.blocks[jobs[j] >> 4]);
+  }
   std::uint64_t open_count = 0;
   for (std::size_t j = 0; j < count; ++j) {
     const std::uint32_t block = jobs[j] >> 4, face = jobs[j] & 15;
-    const Verdicts verdicts = verdicts_of(*batch.planes, face, points.blocks[block]);
-    const unsigned before = points.blocked[block], after = before | verdicts.yes;
-    if (after != before) {
-      points.blocked[block] = static_cast<std::uint16_t>(after);
-      if (after == 0xffff) points.farthest[block] = 0x1p127f;
-    }
-    if (verdicts.open == 0) continue;
-    open_count += static_cast<unsigned>(__builtin_popcount(verdicts.open));
-    for (unsigned open = verdicts.open & ~after; open != 0; open &= open - 1) {
-      const auto place = block * ShadowBlock::kPoints + static_cast<unsigned>(__builtin_ctz(open));
-      undecided.push_back({static_cast<std::uint32_t>(place), batch.face[face], batch.sides[face]});
+    const std::uint32_t after = static_cast<std::uint32_t>(points.blocked[block] | verdicts[j].yes);
+    points.blocked[block] = static_cast<std::uint16_t>(after);
+    points.farthest[block] = after == 0xffff ? kAllBlocked : points.farthest[block];
+    if (verdicts[j].open == 0) continue;
+    open_count += static_cast<std::uint32_t>(__builtin_popcount(verdicts[j].open));
+    for (std::uint32_t open = verdicts[j].open & ~after; open != 0; open &= open - 1) {
+      const std::uint32_t place = block * 16 + static_cast<std::uint32_t>(__builtin_ctz(open));
+      undecided.push_back({place, batch.face[face], batch.sides[face]});
     }
   }
   return ShadowBlock::kPoints * count - open_count;
@@ -214,7 +224,11 @@ std::uint64_t test_points(const ShadowBatch& batch, SortedPoints& points, Shadow
       }
     }
   }
-  return run_jobs(batch, points, jobs.data(), count, undecided);
+  std::uint64_t decided = 0;
+  for (std::size_t j = 0; j < count; j += kRun) {
+    decided += run_jobs(batch, points, jobs.data() + j, std::min(kRun, count - j), undecided);
+  }
+  return decided;
 }
 
 }  // namespace facemap::simd::HWY_NAMESPACE

@@ -10,11 +10,14 @@
 
 namespace facemap::simd {
 
+/// Greater than any bound of a face's w.
+inline constexpr float kAllBlocked = 0x1p127f;
+
 /// Points of a light, sorted by texel, row by row.
 struct SortedPoints {
   const ShadowBlock* blocks;
   const std::uint32_t* begins;  ///< of each texel its first point, by place in the blocks; one more at the end
-  float* farthest;              ///< least w of a block; +infinity once all its points are blocked
+  float* farthest;              ///< least w of a block; kAllBlocked once all its points are blocked
   std::uint16_t* blocked;       ///< one bit a point
   ShadowRaster raster;
 };
