@@ -9,11 +9,12 @@
 namespace facemap::program {
 namespace {
 
-double write(const Image& image, const FrameFiles& files) {
+double write(const Image& image, const FrameFiles& files, int threads) {
   Stopwatch time;
-  if (is_standard_output(files.picture)) write_to_standard_output(encode_png(image));  // a pipe may never take it
+  if (is_standard_output(files.picture))
+    write_to_standard_output(encode_png(image, threads));  // a pipe may never take it
   write_whole([&] {
-    if (!is_standard_output(files.picture)) write_png(image, files.picture);
+    if (!is_standard_output(files.picture)) write_png(image, files.picture, threads);
     if (!files.ids.empty()) write_ids_npy(image, files.ids);
     if (!files.depths.empty()) write_depths_npy(image, files.depths);
     if (!files.lights.empty()) write_lights_npy(image, files.lights);
@@ -23,9 +24,10 @@ double write(const Image& image, const FrameFiles& files) {
 
 }  // namespace
 
-void FrameWriter::begin(Image image, const FrameFiles& files) {
+void FrameWriter::begin(Image image, const FrameFiles& files, int threads) {
   finish();
-  frame_ = std::async(std::launch::async, [image = std::move(image), files] { return write(image, files); });
+  frame_ = std::async(std::launch::async,
+                      [image = std::move(image), files, threads] { return write(image, files, threads); });
 }
 
 void FrameWriter::finish() {

@@ -21,8 +21,8 @@ class FrameWriter {
   FrameWriter(const FrameWriter&) = delete;
   FrameWriter& operator=(const FrameWriter&) = delete;
 
-  /// Waits for the frame before, whose failure it throws, and begins to write this one.
-  void begin(Image image, const FrameFiles& files);
+  /// Waits for the frame before, whose failure it throws, and begins to write this one on so many threads.
+  void begin(Image image, const FrameFiles& files, int threads);
 
   /// Waits for the last frame and throws its failure.
   void finish();

@@ -39,7 +39,7 @@ std::string progress_name(const char* phase, std::size_t frame, std::size_t coun
 
 /// One picture after the other: what is made for the lights is made once. Each is written while the next is made.
 void render_frames(Renderer& renderer, const std::vector<View>& views, const std::vector<FrameFiles>& files,
-                   bool shows_progress, Stats& stats) {
+                   int threads, bool shows_progress, Stats& stats) {
   FrameWriter writer;
   ProgressLine line(shows_progress);
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -49,7 +49,8 @@ void render_frames(Renderer& renderer, const std::vector<View>& views, const std
       return true;
     });
     stats.add_frame(renderer.statistics());
-    writer.begin(std::move(image), files[i]);
+    const bool is_last = i + 1 == views.size();
+    writer.begin(std::move(image), files[i], is_last ? threads : 1);  // the others are at work on the next
   }
   line.clear();
   writer.finish();
@@ -61,14 +62,14 @@ void render(const RenderArguments& arguments) {
   const std::vector<FrameFiles> files = check_files(arguments);
   Stats stats;
   Stopwatch total, phase;
-  const Scene scene = load_model(arguments.model, arguments.quiet);
+  const Scene scene = load_model(arguments.model, arguments.quiet, arguments.options.threads);
   stats.load_ms = phase.lap();
 
   const std::vector<View> views = complete_views(scene, arguments.frames);
   const std::vector<Light> lights = lights_of(arguments, scene);
   say_what_was_made_up(arguments, views, lights);
   Renderer renderer(scene, views[0], lights, renderer_options(arguments));
-  render_frames(renderer, views, files, !arguments.quiet, stats);
+  render_frames(renderer, views, files, arguments.options.threads, !arguments.quiet, stats);
 
   stats.total_ms = total.lap();
   stats.model = arguments.model.string();
