@@ -8,10 +8,10 @@
 #include <optional>
 
 #include "parallel/executor.h"
-#include "picture/shadows.h"
 #include "render/cost_model.h"
 #include "render/painter.h"
 #include "render/stopwatch.h"
+#include "render/whole_picture.h"
 #include "simd/floating_point_mode.h"
 #include "simd/target.h"
 
@@ -44,7 +44,8 @@ struct Renderer::Kept {
   Executor executor;
   std::mutex reporting;
   std::vector<PointLight> lists;  // empty until built
-  double spent_in_vain = 0;       // see PictureWork
+  TransposedState transposed;
+  double spent_in_vain = 0;  // see       // see PictureWork
 };
 
 Renderer::Renderer(const Scene& scene, const View& view, std::vector<Light> lights, const Options& options)
@@ -107,9 +108,19 @@ Image Renderer::make(const Request& request) {
   statistics_.reason = choice.reason;
   statistics_.target = simd::name_of(simd::active_target());
   statistics_.threads = kept_->executor.threads();
-  build_lists(request);
+  const bool by_lists = choice.strategy == Strategy::Lists;
+  if (by_lists) build_lists(request);
+  // The paper's renderer, sample by sample: what its builder and its way of sampling need.
+  if (options.builder == Builder::Fill || options.sampling == Sampling::Edges) return paint_by_lists(request);
 
-  Image image = paint_by_lists(request);
+  WholePicture picture(*scene_, view_, lights_, options, kept_->executor, kept_->transposed,
+                       by_lists ? &kept_->lists : nullptr, statistics_, request.report);
+  Image image = request.wants_colours ? picture.paint() : picture.look();
+  if (!by_lists) {
+    const PictureCost cost = estimate_cost(work);
+    kept_->spent_in_vain += std::max(0.0, cost.transposed - cost.lists);
+    for (const ShadowScratch& scratch : kept_->transposed.scratch) statistics_.map_bytes += scratch.memory_bytes();
+  }
   return image;
 }
 
