@@ -39,6 +39,7 @@ template <class Task>
 void for_each_light(const LightWork& work, std::size_t stride, std::vector<std::uint8_t>& masks, Counters& counters,
                     const Task& task) {
   std::mutex merging;
+  std::size_t done = 0;
   work.executor.for_each(work.lights.size(), [&](std::size_t l, int worker) {
     Counters own;
     std::vector<std::uint8_t> plane;
@@ -50,6 +51,7 @@ void for_each_light(const LightWork& work, std::size_t stride, std::vector<std::
     const std::scoped_lock lock(merging);
     clear_where_zero(plane, stride, l, masks);
     counters += own;
+    work.report(static_cast<double>(++done) / static_cast<double>(work.lights.size()));
   });
 }
 

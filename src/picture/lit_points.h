@@ -5,6 +5,7 @@
 #include <facemap/scene.h>
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "parallel/executor.h"
@@ -22,6 +23,7 @@ struct LightWork {
   const ClosedParts* closed;  ///< or null
   const Executor& executor;
   std::vector<ShadowScratch>& scratch;
+  std::function<void(double)> report;  ///< called when a light is done, with the share of lights done; may throw
 };
 
 /// Clears bit l of seen.masks where something stands between light l and the point, the transposed way. Exact.

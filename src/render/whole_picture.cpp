@@ -133,7 +133,8 @@ void WholePicture::ask_lights(const SampleGrid& grid, SeenPoints& seen) {
     clear_blocked_by_lists(*lists_, moved.positions, seen.stride, executor_, moved.masks, counters);
   } else {
     const std::vector<Vector> lights = positions_of(lights_);
-    const LightWork work{scene_, lights, state_.closed.get(), executor_, state_.scratch};
+    const LightWork work{scene_,    lights,         state_.closed.get(),
+                         executor_, state_.scratch, [this](double share) { report_(0.3 + 0.5 * share, "shade"); }};
     clear_blocked(work, grid, seen, counters);
     clear_blocked(work, moved.points, moved.positions, seen.stride, moved.masks, counters);
   }
@@ -159,11 +160,13 @@ Image WholePicture::paint() {
   image.light_count = static_cast<int>(lights_.size());
   Seen seen = see(options_.samples);
   const Stopwatch shade_time;
+  report_(0.8, "shade");
   std::vector<Color> colors(seen.grid.count(), options_.background);
   shade_points(scene_, seen.grid, seen.points, lights_, options_, executor_, colors);
   image.pixels = options_.samples == 1 ? std::move(colors) : mean_of_samples(seen.grid, colors, executor_);
   statistics_.shade_ms += shade_time.milliseconds();
 
+  report_(1, "shade");
   // Planes always hold the ray through the pixel's centre.
   if (!options_.want_ids && !options_.want_depths && !options_.want_lights) return image;
   if (options_.samples != 1) seen = see(1);
