@@ -55,23 +55,22 @@ class ExponentRange {
   }
 
   void include(float x) {
-    const int field = field_of(x);
-    highest_ = std::max(highest_, field);
-    lowest_ = std::min(lowest_, x == 0 ? kNoField : field);
+    const std::uint32_t magnitude = std::bit_cast<std::uint32_t>(x) & 0x7fffffffu;
+    greatest_ = std::max(greatest_, magnitude);
+    least_less_one_ = std::min(least_less_one_, magnitude - 1);  // wraps round for 0, which any unit measures
   }
 
   /// In units of 2^(lowest() - 150) every float included is an integer, below 2^bits() in magnitude.
-  int lowest() const { return lowest_; }
-  int bits() const { return highest_ - lowest_ + 24; }
+  int lowest() const { return least_less_one_ == kNone ? 1 : field_of(least_less_one_ + 1); }
+  int bits() const { return field_of(greatest_) - lowest() + 24; }
 
-  static int field_of(float x) {
-    return std::max<int>(1, static_cast<int>((std::bit_cast<std::uint32_t>(x) >> 23) & 0xffu));
-  }
+  /// Of the bits of a float without its sign.
+  static int field_of(std::uint32_t magnitude) { return std::max(1, static_cast<int>(magnitude >> 23)); }
 
  private:
-  static constexpr int kNoField = 254;
-  int lowest_ = kNoField;
-  int highest_ = 1;
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  std::uint32_t greatest_ = 0;
+  std::uint32_t least_less_one_ = kNone;
 };
 
 /// Integers of N limbs for each input, exact. An input is below 2^(64 N - 3), so a difference of two is below
@@ -95,11 +94,18 @@ class IntegerNumbers {
 
  private:
   static Integer<N> number(float x, int lowest) {
-    if (x == 0) return {};
-    const auto bits = std::bit_cast<std::uint32_t>(x);
-    const std::int64_t fraction = bits & 0x7fffffu;
-    const std::int64_t magnitude = (bits & 0x7f800000u) == 0 ? fraction : fraction | 0x800000;
-    return Integer<N>::shifted(x < 0 ? -magnitude : magnitude, ExponentRange::field_of(x) - lowest);
+    if constexpr (N == 1) {
+      // 2^(150 - lowest) in double; the product is exact, and an integer.
+      const auto unit =
+          std::bit_cast<double>(static_cast<std::uint64_t>(1023 + ExponentRange::kUnitOfField - lowest) << 52);
+      return {{static_cast<std::uint64_t>(static_cast<std::int64_t>(double(x) * unit))}};
+    } else {
+      const std::uint32_t magnitude = std::bit_cast<std::uint32_t>(x) & 0x7fffffffu;
+      if (magnitude == 0) return {};
+      const std::int64_t fraction = magnitude & 0x7fffffu;
+      const std::int64_t mantissa = magnitude < 0x800000u ? fraction : fraction | 0x800000;
+      return Integer<N>::shifted(x < 0 ? -mantissa : mantissa, ExponentRange::field_of(magnitude) - lowest);
+    }
   }
 
   int lowest_length_, lowest_direction_;
