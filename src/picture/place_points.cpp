@@ -1,18 +1,14 @@
 #include "picture/place_points.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
+
+#include "picture/point_box.h"
 
 namespace facemap {
 namespace {
 
 constexpr double kLeastHalf = 0x1p-160;  // world units, below the least float: of a box that is one point
-
-// 2^k for the least k with x < 2^k; x positive and normal.
-double power_of_two_above(double x) {
-  return std::bit_cast<double>(((std::bit_cast<std::uint64_t>(x) >> 52) + 1) << 52);
-}
 
 // To nearest, ties to even, for magnitudes up to 2^31: what is added leaves no room for a fraction.
 std::int32_t rounded(double x) {

@@ -1,0 +1,109 @@
+#include "picture/tile_batch.h"
+
+#include <algorithm>
+
+#include "map/face_planes.h"
+#include "math/exact_sign.h"
+
+namespace facemap {
+namespace {
+
+constexpr int kBlockColumns = 8, kBlockRows = 2;
+constexpr int kCell = 8;
+
+// splitmix64's mixing (Steele, Lea, Flood 2014).
+std::uint64_t mixed(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+}  // namespace
+
+TileBatch::TileBatch(const Scene& scene, const SampleGrid& grid, const NearestFaces& nearest, const RayTable& rays)
+    : scene_(scene), grid_(grid), nearest_(nearest), table_(rays), slots_(scene.mesh()) {}
+
+void TileBatch::collect(int column, int row) {
+  rays_.count = 0;
+  const int end_column = std::min(column + kTile, grid_.columns()), end_row = std::min(row + kTile, grid_.rows());
+  for (int left = column; left < end_column; left += kBlockColumns) {
+    for (int top = row; top < end_row; top += kBlockRows) {
+      for (int j = top; j < std::min(top + kBlockRows, end_row); ++j) {
+        add_run(j, left, std::min(left + kBlockColumns, end_column));
+      }
+    }
+  }
+}
+
+// The place in a cell varies, so that no pattern of the picture hides from it.
+void TileBatch::collect_some(int column, int row) {
+  rays_.count = 0;
+  for (int top = row; top < row + kTile; top += kCell) {
+    for (int left = column; left < column + kTile; left += kCell) {
+      const auto cell = static_cast<std::uint64_t>(top) << 32 | static_cast<std::uint64_t>(left);
+      const int place = static_cast<int>(mixed(cell) % (kCell * kCell));
+      const int i = left + place % kCell, j = top + place / kCell;
+      if (i < grid_.columns() && j < grid_.rows()) add_run(j, i, i + 1);
+    }
+  }
+}
+
+// Those of the samples begin..end-1 of a row that see a face.
+void TileBatch::add_run(int row, int begin, int end) {
+  const auto first = static_cast<std::size_t>(row) * table_.columns.size() + static_cast<std::size_t>(begin);
+  const FaceId* faces = nearest_.faces.data() + first;
+  const int length = end - begin;
+  FaceId all = kNoFace;  // -1, and stays so only as long as no id is a face
+  for (int i = 0; i < length; ++i) all &= faces[i];
+  if (all == kNoFace) return;
+
+  const double* x = table_.columns.data() + begin;
+  const double y = table_.rows[static_cast<std::size_t>(row)];
+  std::size_t count = rays_.count;
+  for (int i = 0; i < length; ++i) {
+    const FaceId face = faces[i];
+    samples_[count] = static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(i);
+    faces_[count] = static_cast<std::uint32_t>(face);
+    rays_.map_x[count] = x[i];
+    rays_.map_y[count] = y;
+    count += face != kNoFace;  // no branch: edges of shapes are hard to predict
+  }
+  rays_.count = count;
+}
+
+void TileBatch::find_offsets(const Vector& origin, double allowed) {
+  const Vector& camera = grid_.frame.position();
+  const float K[3] = {camera.x, camera.y, camera.z};
+  slots_.assign(faces_, rays_.count, rays_.slots);
+  simd::set_up_planes(slots_.planes, K);
+  simd::ray_directions(table_.frame, rays_.map_x, rays_.map_y, rays_.count, rays_.direction[0], rays_.direction[1],
+                       rays_.direction[2]);
+  const DVector from_origin = DVector(camera) - DVector(origin);
+  const double base[3] = {from_origin.x, from_origin.y, from_origin.z};
+  if (!simd::meet_planes(slots_.planes, base, allowed, rays_, is_sharp_)) return;
+  for (std::size_t i = 0; i < rays_.count; ++i) {
+    if (!is_sharp_[i]) sharpen(origin, i);
+  }
+}
+
+// Where doubles leave too much open, as for rays that graze a face: to kDirectionError of the offset.
+void TileBatch::sharpen(const Vector& origin, std::size_t i) {
+  const Triangle face = triangle_of(scene_, faces_[i]);
+  const Vector& camera = grid_.frame.position();
+  const Vector direction(rays_.direction[0][i], rays_.direction[1][i], rays_.direction[2][i]);
+  const TruePoint point{camera, direction, face, side(face, camera)};
+  const DVector offset = offset_from(origin, point, ray_parameter(point));
+  for (int axis = 0; axis < 3; ++axis) rays_.offset[axis][i] = offset[axis];
+}
+
+PointBox TileBatch::box() const {
+  PointBox box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [least, most] = std::minmax_element(rays_.offset[axis], rays_.offset[axis] + rays_.count);
+    box.lower[axis] = *least;
+    box.upper[axis] = *most;
+  }
+  return box;
+}
+
+}  // namespace facemap
