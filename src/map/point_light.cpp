@@ -170,7 +170,7 @@ bool PointLight::is_blocked(const DVector& offset, const Point& point, std::uint
     return blocks(triangle_of(scene(), id), planes().side(id), position(), point, counters);
   };
 
-  if (!(true_length < simd::kLargestLength)) return is_blocked_for_sure(ids, is_past_cut, skip, exact);
+  if (!(true_length < simd::kLargestOffset)) return is_blocked_for_sure(ids, is_past_cut, skip, exact);
   const simd::ListPoint asked = list_point(offset * scale, true_length);
   if (tolerance > 0) {
     // What the filter takes for a blocker may be within the tolerance.
@@ -240,7 +240,7 @@ void PointLight::ask_together(std::span<const Vector> points, std::uint8_t* lit,
     lit[i] = 1;
     if (chunk.texel[i] < 0) continue;
     const auto texel = static_cast<std::size_t>(chunk.texel[i]);
-    if (!(chunk.length[i] < simd::kLargestLength)) {
+    if (!(chunk.length[i] < simd::kLargestOffset)) {
       lit[i] = get_lighten_up(points[i], counters);
     } else if (is_beyond(chunk.length[i], texels().cut(texel))) {
       lit[i] = 0;

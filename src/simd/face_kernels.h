@@ -24,7 +24,7 @@ struct alignas(64) FacePlanes {
 inline constexpr float kUnderflow = 0x1p-110f;
 
 /// Directions of a greater length (map units) are not for the filter: dot products could overflow.
-inline constexpr float kLargestLength = 0x1p60f;
+inline constexpr float kLargestOffset = 0x1p60f;
 
 /// Verdict of the float32 filter on one face.
 enum Verdict : std::uint8_t { kNo = 0, kYes = 1, kUndecided = 2 };
