@@ -32,8 +32,8 @@ void meet(NearestHit& best, const Scene& scene, const Vector& origin, const Vect
 
 }  // namespace
 
-void resolve_contests(const Scene& scene, const SampleGrid& grid, const simd::RasterTarget& target,
-                      std::vector<std::uint32_t>& loose, Counters* counters) {
+void resolve_contests(const Scene& scene, const SampleGrid& grid, const RasterPlace& place,
+                      const simd::RasterTarget& target, std::vector<std::uint32_t>& loose, Counters* counters) {
   simd::Contests& contests = *target.contests;
   std::erase_if(contests,
                 [&](const simd::Contest& c) { return c.largest_w < target.w[c.sample] * simd::kSurelyBehind; });
@@ -43,7 +43,8 @@ void resolve_contests(const Scene& scene, const SampleGrid& grid, const simd::Ra
   const Vector origin = grid.frame.position();
   for (std::size_t i = 0; i < contests.size();) {
     const std::uint32_t sample = contests[i].sample;
-    const int column = static_cast<int>(sample % target.columns), row = static_cast<int>(sample / target.columns);
+    const int column = place.first_column + static_cast<int>(sample % target.columns);
+    const int row = place.first_row + static_cast<int>(sample / target.columns);
     const Vector direction = grid.direction(column, row);
     NearestHit best(scene, origin, direction, counters);
     // In the order of ids, so that counts are the same however the faces came.
@@ -59,7 +60,9 @@ void resolve_contests(const Scene& scene, const SampleGrid& grid, const simd::Ra
     }
     meet_winner();
     target.faces[sample] = best.hit().face;
-    if (best.hit() && (best.hit().tied || !best.hit().strictly_inside)) loose.push_back(sample);
+    if (!best.hit() || (best.hit().strictly_inside && !best.hit().tied)) continue;
+    loose.push_back(static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(grid.columns()) +
+                    static_cast<std::uint32_t>(column));
   }
 }
 

@@ -11,9 +11,15 @@
 
 namespace facemap {
 
-/// Decides the contests of a raster exactly and sorts them. Afterwards target.faces holds the nearest faces of all
-/// samples; the contested ones whose hit is tied or not strictly inside are appended to `loose`, ascending.
-void resolve_contests(const Scene& scene, const SampleGrid& grid, const simd::RasterTarget& target,
-                      std::vector<std::uint32_t>& loose, Counters* counters);
+/// Where a raster's first sample stands in the picture.
+struct RasterPlace {
+  int first_column = 0, first_row = 0;
+};
+
+/// Decides the contests of a raster exactly and sorts them. Afterwards target.faces holds the nearest faces of all its
+/// samples; the contested ones whose hit is tied or not strictly inside are appended to `loose`, by their numbers in
+/// the picture.
+void resolve_contests(const Scene& scene, const SampleGrid& grid, const RasterPlace& place,
+                      const simd::RasterTarget& target, std::vector<std::uint32_t>& loose, Counters* counters);
 
 }  // namespace facemap

@@ -3,6 +3,7 @@
 #include <facemap/camera.h>
 
 #include "picture/nearest_raster.h"
+#include "picture/nearest_tiles.h"
 #include "picture/nearest_view.h"
 #include "simd/floating_point_mode.h"
 
@@ -51,6 +52,7 @@ NearestFaces find_nearest_faces(const Scene& scene, const SampleGrid& grid, cons
   if (const std::optional<PlaneView> view = plane_view(scene, grid)) {
     return draw_plane_view(scene, grid, *view, executor, counters);
   }
+  if (grid.projection.kind() == ProjectionKind::Surface) return draw_surface_view(scene, grid, executor, counters);
   return ask_lists(scene, grid, executor, counters);
 }
 

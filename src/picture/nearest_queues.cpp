@@ -29,6 +29,22 @@ simd::BoxQueue* BoxQueues::fresh() {
   return queues_;
 }
 
+void BoxQueues::drop_odd_faces(const Scene& scene) {
+  if (scene.kept_faces().size() == scene.face_count()) return;
+  for (simd::BoxQueue& queue : queues_) {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < queue.size; ++i) {
+      queue.faces[n] = queue.faces[i];
+      queue.x0[n] = queue.x0[i];
+      queue.x1[n] = queue.x1[i];
+      queue.y0[n] = queue.y0[i];
+      queue.y1[n] = queue.y1[i];
+      n += scene.is_kept(queue.faces[i]);
+    }
+    queue.size = n;
+  }
+}
+
 void WaitingBoxes::append(const BoxQueues& queues) {
   for (int q = 0; q < BoxQueues::kQueues; ++q) {
     const simd::BoxQueue& queue = queues[q];

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <facemap/scene.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -19,6 +21,9 @@ class BoxQueues {
 
   /// Empties the queues and gives them to find_boxes.
   simd::BoxQueue* fresh();
+
+  /// Leaves the faces that take part in maps.
+  void drop_odd_faces(const Scene& scene);
 
   simd::BoxQueue& operator[](int queue) { return queues_[queue]; }
   const simd::BoxQueue& operator[](int queue) const { return queues_[queue]; }

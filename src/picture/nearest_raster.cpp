@@ -30,7 +30,6 @@ class PlaneRaster {
     points_ = std::make_unique_for_overwrite<float[]>(2 * (mesh.positions.size() + simd::kVertexRoom));
     reserve_pages(w_, grid.count());
     reserve_pages(nearest_.faces, grid.count());
-    keeps_all_ = scene.kept_faces().size() == scene.face_count();
   }
 
   NearestFaces run(Counters* counters) {
@@ -65,21 +64,7 @@ class PlaneRaster {
   void find_boxes(std::size_t first, BoxQueues& queues) const {
     const std::size_t count = std::min(kChunk, scene_.face_count() - first);
     simd::find_boxes(source_.triangles, first, count, points_.get(), view_.boxes, queues.fresh());
-    if (keeps_all_) return;
-    for (int q = 0; q < BoxQueues::kQueues; ++q) drop_odd_faces(queues[q]);
-  }
-
-  void drop_odd_faces(simd::BoxQueue& queue) const {
-    std::size_t n = 0;
-    for (std::size_t i = 0; i < queue.size; ++i) {
-      queue.faces[n] = queue.faces[i];
-      queue.x0[n] = queue.x0[i];
-      queue.x1[n] = queue.x1[i];
-      queue.y0[n] = queue.y0[i];
-      queue.y1[n] = queue.y1[i];
-      n += scene_.is_kept(queue.faces[i]);
-    }
-    queue.size = n;
+    queues.drop_odd_faces(scene_);
   }
 
   void draw_all_at_once() {
@@ -119,7 +104,7 @@ class PlaneRaster {
   }
 
   simd::RasterTarget target(Band& band) {
-    return {w_.data(),       nearest_.faces.data(), static_cast<std::uint32_t>(grid_.columns()),
+    return {w_.data(),      nearest_.faces.data(), static_cast<std::uint32_t>(grid_.columns()),
             band.first_row, band.last_row,         &band.contests};
   }
 
@@ -172,7 +157,7 @@ class PlaneRaster {
   void finish(Counters* counters) {
     executor_.for_each(bands_.size(), [&](std::size_t i, int) {
       Band& band = bands_[i];
-      resolve_contests(scene_, grid_, target(band), band.loose, &band.counters);
+      resolve_contests(scene_, grid_, {}, target(band), band.loose, &band.counters);
     });
     for (const Band& band : bands_) {
       nearest_.loose.insert(nearest_.loose.end(), band.loose.begin(), band.loose.end());
@@ -185,7 +170,6 @@ class PlaneRaster {
   const PlaneView& view_;
   const Executor& executor_;
   simd::FaceSource source_;
-  bool keeps_all_ = false;
   std::unique_ptr<float[]> points_;
   std::vector<float> w_;
   NearestFaces nearest_;

@@ -23,12 +23,6 @@ constexpr double kLargestTilt = 1.0 / 16;
 // Samples a ray may pass from its centre: beyond that most edges would be left open.
 constexpr double kLargestShift = 0.25;
 
-// A power of two that brings lengths up to `largest` to about 1; within what float32 can hold of it.
-double unit_for(double largest) {
-  const double length = std::clamp(largest, 0x1p-100, 0x1p100);
-  return std::bit_cast<double>((2046 - (std::bit_cast<std::uint64_t>(length) >> 52)) << 52);
-}
-
 void store(const DVector& axis, double length, double row[3]) {
   row[0] = axis.x * length;
   row[1] = axis.y * length;
@@ -62,6 +56,11 @@ void set_vertices(PlaneView& view, double f, double limit, double half_columns, 
 }
 
 }  // namespace
+
+double unit_for(double largest) {
+  const double length = std::clamp(largest, 0x1p-100, 0x1p100);  // within what float32 can hold of it
+  return std::bit_cast<double>((2046 - (std::bit_cast<std::uint64_t>(length) >> 52)) << 52);
+}
 
 std::optional<PlaneView> plane_view(const Scene& scene, const SampleGrid& grid) {
   if (grid.projection.kind() != ProjectionKind::Plane) return std::nullopt;

@@ -20,6 +20,9 @@ struct PlaneView {
   double first_u = 0, first_v = 0;
 };
 
+/// A power of two that brings lengths up to `largest` to about 1.
+double unit_for(double largest);
+
 /// None if rays lie too far from their samples' centres, or fields are too wide, for the bounds to be of use.
 std::optional<PlaneView> plane_view(const Scene& scene, const SampleGrid& grid);
 

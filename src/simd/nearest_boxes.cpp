@@ -23,6 +23,8 @@ using VI = hn::Vec<DI>;
 using VU = hn::Vec<DU>;
 using M = hn::Mask<D>;
 
+constexpr float kLargestBulge = 0x1p20f;  // samples; keeps boxes that are not used within integers
+
 struct Points {
   V u, v;
 };
@@ -70,14 +72,20 @@ HWY_INLINE VI last_sample(V high, float origin, std::int32_t count) {
 HWY_INLINE Boxes boxes_of(const BoxRules& r, const Points& a, const Points& b, const Points& c) {
   const D d;
   const DI di;
-  const V margin = hn::Set(d, r.margin);
-  const M pointless = hn::Or(hn::IsNaN(a.u), hn::Or(hn::IsNaN(b.u), hn::IsNaN(c.u)));
+  M pointless = hn::Or(hn::IsNaN(a.u), hn::Or(hn::IsNaN(b.u), hn::IsNaN(c.u)));
   Boxes box;
   const V zero = hn::Zero(d);  // a number where there is none, so that the conversion is defined
   const V u0 = hn::IfThenElse(pointless, zero, least(a.u, b.u, c.u));
   const V u1 = hn::IfThenElse(pointless, zero, greatest(a.u, b.u, c.u));
   const V v0 = hn::IfThenElse(pointless, zero, least(a.v, b.v, c.v));
   const V v1 = hn::IfThenElse(pointless, zero, greatest(a.v, b.v, c.v));
+  V margin = hn::Set(d, r.margin);
+  if (r.bulge > 0) {
+    const V width = hn::Sub(u1, u0), height = hn::Sub(v1, v0);
+    const V squared = hn::Add(hn::Mul(width, width), hn::Mul(height, height));
+    pointless = hn::Or(pointless, hn::Gt(squared, hn::Set(d, r.longest_squared)));
+    margin = hn::Add(margin, hn::Min(hn::Mul(hn::Set(d, r.bulge), squared), hn::Set(d, kLargestBulge)));
+  }
   box.x0 = first_sample(hn::Sub(u0, margin), r.first_column);
   box.x1 = last_sample(hn::Add(u1, margin), r.first_column, r.columns);
   box.y0 = first_sample(hn::Sub(v0, margin), r.first_row);

@@ -13,6 +13,12 @@ struct BoxRules {
   float margin;                   ///< samples: a point's error and how far a ray may pass from its sample's centre
   float edge_u, edge_v;           ///< as VertexFrame, and a point's error more
   std::int32_t columns, rows;
+
+  /// Edges that are not straight: they leave the box of their ends by at most bulge times the box's squared diagonal,
+  /// if that is not above longest_squared. Larger faces have no box.
+  float bulge = 0;
+  float longest_squared = kNoLongest;
+  static constexpr float kNoLongest = 3e38f;
 };
 
 /// Faces and the samples each may cover, both ends inside.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/nearest_draw.cpp"
@@ -10,46 +9,11 @@
 #include <hwy/highway.h>
 
 #include "simd/dispatch.h"
+#include "simd/nearest_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace facemap::simd::HWY_NAMESPACE {
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-using D = hn::ScalableTag<float>;
-using DI = hn::RebindToSigned<D>;
-using V = hn::Vec<D>;
-using VI = hn::Vec<DI>;
-using M = hn::Mask<D>;
-
-constexpr std::size_t kRoom = kBlockFaces;  // a vector's lanes at most
-constexpr float kInverseSharpness = 0x1p-17f;
-
-// An upper bound of w, from the errors that `sharp` stands for; none if it is never sharp.
-HWY_INLINE V largest_w(V w, V sharp) {
-  const D d;
-  const V more = hn::Mul(hn::Abs(w), hn::Set(d, kSharpShare));
-  const V bound = hn::Add(hn::Add(w, more), hn::Mul(sharp, hn::Set(d, kInverseSharpness * 1.0001f)));
-  return hn::IfThenElse(hn::Lt(sharp, hn::Set(d, kNeverSharp)), bound,
-                        hn::Set(d, std::numeric_limits<float>::infinity()));
-}
-
-// The lanes of `which` are pairs left open, those not in `inside` because the ray may miss the face.
-HWY_INLINE void draw_unsure_lanes(const RasterTarget& target, M which, M inside, V w, V sharp, VI samples, VI faces) {
-  const D d;
-  const DI di;
-  alignas(64) float bounds[kRoom];
-  alignas(64) std::int32_t at[kRoom], ids[kRoom];
-  const VI flag = hn::Set(di, std::numeric_limits<std::int32_t>::min());
-  const VI named = hn::IfThenElse(hn::RebindMask(di, inside), faces, hn::Or(faces, flag));
-  hn::CompressStore(largest_w(w, sharp), which, d, bounds);
-  hn::CompressStore(named, hn::RebindMask(di, which), di, ids);
-  const std::size_t count = hn::CompressStore(samples, hn::RebindMask(di, which), di, at);
-  for (std::size_t i = 0; i < count; ++i) {
-    draw_unsure(target, {static_cast<std::uint32_t>(at[i]), static_cast<std::uint32_t>(ids[i]), bounds[i]});
-  }
-}
 
 // Some faces of a block, from lane `from` on.
 HWY_INLINE void draw_lanes(const FaceBlock& block, const FaceBoxes& boxes, std::size_t from,
@@ -89,16 +53,7 @@ HWY_INLINE void draw_lanes(const FaceBlock& block, const FaceBoxes& boxes, std::
     const M near = hn::And(live, hn::Ge(e, hn::Set(d, -1)));
     if (!hn::AllFalse(d, near)) {
       const V w = hn::Add(hn::Mul(Aw, dx), hn::Add(hn::Mul(Bw, dy), Cw));
-      const M inside = hn::And(near, hn::Ge(e, one));
-      const M sure = hn::And(inside, hn::Ge(w, sharp));
-      alignas(64) float ws[kRoom];
-      alignas(64) std::int32_t at[kRoom], who[kRoom];
-      hn::CompressStore(w, sure, d, ws);
-      hn::CompressStore(faces, hn::RebindMask(di, sure), di, who);
-      const std::size_t count = hn::CompressStore(samples, hn::RebindMask(di, sure), di, at);
-      for (std::size_t i = 0; i < count; ++i) draw_sample(target, static_cast<std::uint32_t>(at[i]), ws[i], who[i]);
-      const M unsure = hn::AndNot(sure, near);
-      if (!hn::AllFalse(d, unsure)) draw_unsure_lanes(target, unsure, inside, w, sharp, samples, faces);
+      draw_scattered(target, near, hn::And(near, hn::Ge(e, one)), w, sharp, samples, faces);
     }
     dx = hn::Add(dx, one);
     const M at_end = hn::Gt(dx, last_dx);
@@ -144,7 +99,6 @@ struct RunPlanes {
 HWY_INLINE void draw_vector(const RunPlanes& p, V dx, M live, std::uint32_t first, std::size_t count, std::uint32_t id,
                             const RasterTarget& target) {
   const D d;
-  const DI di;
   const V e0 = hn::Add(hn::Mul(hn::Set(d, p.A[0]), dx), hn::Set(d, p.base[0]));
   const V e1 = hn::Add(hn::Mul(hn::Set(d, p.A[1]), dx), hn::Set(d, p.base[1]));
   const V e2 = hn::Add(hn::Mul(hn::Set(d, p.A[2]), dx), hn::Set(d, p.base[2]));
@@ -152,44 +106,7 @@ HWY_INLINE void draw_vector(const RunPlanes& p, V dx, M live, std::uint32_t firs
   const M near = hn::And(live, hn::Ge(e, hn::Set(d, -1)));
   if (hn::AllFalse(d, near)) return;
   const V w = hn::Add(hn::Mul(hn::Set(d, p.A[3]), dx), hn::Set(d, p.base[3]));
-  const M inside = hn::And(near, hn::Ge(e, hn::Set(d, 1)));
-  const V sharp = hn::Set(d, p.sharp);
-  const M sure = hn::And(inside, hn::Ge(w, sharp));
-
-  // The last samples of a row are copied, so that nothing beyond it is touched.
-  alignas(64) float last_w[kRoom] = {};
-  alignas(64) std::int32_t last_faces[kRoom] = {};
-  const bool is_whole = count >= hn::Lanes(d);
-  float* ws = target.w + first;
-  std::int32_t* ids = target.faces + first;
-  if (!is_whole) {
-    std::copy(ws, ws + count, last_w);
-    std::copy(ids, ids + count, last_faces);
-    ws = last_w;
-    ids = last_faces;
-  }
-  const V old_w = hn::LoadU(d, ws);
-  const VI old_ids = hn::LoadU(di, ids);
-  const VI new_ids = hn::Set(di, static_cast<std::int32_t>(id));
-  const M front = hn::And(sure, hn::Gt(w, old_w));
-  const VI apart = hn::Sub(hn::BitCast(di, w), hn::BitCast(di, old_w));
-  const auto close = hn::And(hn::Lt(hn::Abs(apart), hn::Set(di, kCloseUlps + 1)), hn::Gt(old_ids, hn::Set(di, -1)));
-  hn::StoreU(hn::IfThenElse(front, w, old_w), d, ws);
-  hn::StoreU(hn::IfThenElse(hn::RebindMask(di, front), new_ids, old_ids), di, ids);
-  if (!is_whole) {
-    std::copy(last_w, last_w + count, target.w + first);
-    std::copy(last_faces, last_faces + count, target.faces + first);
-  }
-
-  const VI samples = hn::Add(hn::Set(di, static_cast<std::int32_t>(first)), hn::Iota(di, 0));
-  const M contested = hn::And(sure, hn::RebindMask(d, close));
-  if (!hn::AllFalse(d, contested)) {
-    const V loser_w = hn::IfThenElse(front, old_w, w);
-    const VI losers = hn::IfThenElse(hn::RebindMask(di, front), old_ids, new_ids);
-    draw_unsure_lanes(target, contested, contested, loser_w, hn::Zero(d), samples, losers);
-  }
-  const M unsure = hn::AndNot(sure, near);
-  if (!hn::AllFalse(d, unsure)) draw_unsure_lanes(target, unsure, inside, w, sharp, samples, new_ids);
+  draw_neighbours(target, near, hn::And(near, hn::Ge(e, hn::Set(d, 1))), w, hn::Set(d, p.sharp), first, count, id);
 }
 
 HWY_INLINE float rounded(double x) { return static_cast<float>(std::min(std::max(x, -0x1p100), 0x1p100)); }

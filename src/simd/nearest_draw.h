@@ -8,11 +8,6 @@ namespace facemap::simd {
 /// Draws faces over their boxes, 16 in lanes, one sample each at a time. Unsure faces are passed over.
 void draw_faces(const FaceBlock& block, const FaceBoxes& boxes, const RasterTarget& target);
 
-/// A box of samples, both ends inside.
-struct SampleBox {
-  std::int32_t x0, x1, y0, y1;
-};
-
 /// Draws one face over a box, row by row. `first_u`, `first_v`: the centre of sample (0, 0).
 void draw_large(const LargeFace& face, std::uint32_t id, const SampleBox& box, double first_u, double first_v,
                 const RasterTarget& target);

@@ -166,6 +166,21 @@ HWY_INLINE void store_flags(M flags, std::uint8_t* out) {
   for (std::size_t i = 0; i < hn::Lanes(d); ++i) out[i] = ones[i] != 0;
 }
 
+// (u, v): where the box's first sample lies.
+HWY_INLINE void store(const Planes& planes, V u, V v, std::size_t i, FaceBlock& block) {
+  for (int k = 0; k < 3; ++k) {
+    store_floats(planes.edge[k].x, block.A[k] + i);
+    store_floats(planes.edge[k].y, block.B[k] + i);
+    store_floats(value_at(planes.edge[k], u, v), block.C[k] + i);
+  }
+  store_floats(planes.w.x, block.Aw + i);
+  store_floats(planes.w.y, block.Bw + i);
+  store_floats(value_at(planes.w, u, v), block.Cw + i);
+  const Floats floats;
+  hn::Store(hn::DemoteTo(floats, planes.sharp), floats, block.sharp + i);
+  store_flags(planes.is_unsure, block.is_unsure + i);
+}
+
 }  // namespace
 
 void set_up_faces(const FaceSource& source, const PlaneFrame& frame, double first_u, double first_v,
@@ -182,19 +197,21 @@ void set_up_faces(const FaceSource& source, const PlaneFrame& frame, double firs
     height[i] = boxes.y1[from] - boxes.y0[from];
   }
   for (std::size_t i = 0; i < kBlockFaces; i += hn::Lanes(d)) {
-    const V at_u = hn::Load(d, u + i), at_v = hn::Load(d, v + i);
     const Planes planes = planes_of(frame, corners, i, hn::Load(d, width + i), hn::Load(d, height + i), hn::Zero(d));
-    for (int k = 0; k < 3; ++k) {
-      store_floats(planes.edge[k].x, block.A[k] + i);
-      store_floats(planes.edge[k].y, block.B[k] + i);
-      store_floats(value_at(planes.edge[k], at_u, at_v), block.C[k] + i);
-    }
-    store_floats(planes.w.x, block.Aw + i);
-    store_floats(planes.w.y, block.Bw + i);
-    store_floats(value_at(planes.w, at_u, at_v), block.Cw + i);
-    const Floats floats;
-    hn::Store(hn::DemoteTo(floats, planes.sharp), floats, block.sharp + i);
-    store_flags(planes.is_unsure, block.is_unsure + i);
+    store(planes, hn::Load(d, u + i), hn::Load(d, v + i), i, block);
+  }
+}
+
+void set_up_tile_faces(const FaceSource& source, const PlaneFrame& frame, double reach, const std::uint32_t* faces,
+                       std::size_t count, const std::int8_t* sides, FaceBlock& block) {
+  const D d;
+  Corners corners;
+  gather(source, faces, count, corners);
+  alignas(64) double side[kBlockFaces] = {};
+  for (std::size_t i = 0; i < count; ++i) side[i] = sides == nullptr ? 0 : sides[i];
+  for (std::size_t i = 0; i < kBlockFaces; i += hn::Lanes(d)) {
+    const Planes planes = planes_of(frame, corners, i, constant(reach), constant(reach), hn::Load(d, side + i));
+    store(planes, hn::Zero(d), hn::Zero(d), i, block);
   }
 }
 
@@ -238,6 +255,11 @@ namespace facemap::simd {
 void set_up_faces(const FaceSource& source, const PlaneFrame& frame, double first_u, double first_v,
                   const FaceBoxes& boxes, FaceBlock& block) {
   FACEMAP_DISPATCH(set_up_faces)(source, frame, first_u, first_v, boxes, block);
+}
+
+void set_up_tile_faces(const FaceSource& source, const PlaneFrame& frame, double reach, const std::uint32_t* faces,
+                       std::size_t count, const std::int8_t* sides, FaceBlock& block) {
+  FACEMAP_DISPATCH(set_up_tile_faces)(source, frame, reach, faces, count, sides, block);
 }
 
 void set_up_large(const FaceSource& source, const PlaneFrame& frame, const std::uint32_t* faces, std::size_t count,

@@ -61,6 +61,11 @@ struct FaceBoxes {
 void set_up_faces(const FaceSource& source, const PlaneFrame& frame, double first_u, double first_v,
                   const FaceBoxes& boxes, FaceBlock& block);
 
+/// The same block for samples anywhere in a tile, (u, v) counted from the frame's axis: `reach` is their greatest |u|
+/// or |v|.
+void set_up_tile_faces(const FaceSource& source, const PlaneFrame& frame, double reach, const std::uint32_t* faces,
+                       std::size_t count, const std::int8_t* sides, FaceBlock& block);
+
 /// `sides`: exact sides of faces known to be unsure (then never sharp), or null.
 void set_up_large(const FaceSource& source, const PlaneFrame& frame, const std::uint32_t* faces, std::size_t count,
                   const std::int8_t* sides, LargeFace* large);

@@ -36,6 +36,11 @@ using Contests = std::vector<Contest>;
 /// Out of line, so that no kernel's instruction set reaches the vector's code.
 void add_contest(Contests& contests, const Contest& contest);
 
+/// A box of samples, both ends inside.
+struct SampleBox {
+  std::int32_t x0, x1, y0, y1;
+};
+
 /// The samples' raster, row by row. Kernels write only to samples of the boxes they are given, and
 /// only within its rows.
 struct RasterTarget {

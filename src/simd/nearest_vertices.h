@@ -25,6 +25,23 @@ struct VertexFrame {
 /// Z below this (scene's units of about 1) is too near for a point.
 inline constexpr float kLeastDepth = 0x1p-60f;
 
+/// Vertices nearer or farther than these (the same unit) have no point of a surface projection.
+inline constexpr float kLeastLength = 0x1p-30f, kLargestLength = 0x1p30f;
+
+/// The surface projection: the distance of (u, v) from the centre is the angle from the third row, `per_radian` samples
+/// each. The first two rows are per_radian times the third's length; outside bits are those of the pyramid through
+/// edge_u and edge_v.
+struct SurfaceFrame {
+  VertexFrame frame;  ///< its limit is not used
+  float per_radian;
+  float largest_angle;  ///< radians; points beyond it are not given
+};
+
+/// Error of the computed angle, radians: atan's polynomial (Abramowitz and Stegun 4.4.49, 2^-25) and its roundings.
+inline constexpr float kAngleError = 0x1p-19f;
+
+void project_vertices_surface(const float* positions, std::size_t count, const SurfaceFrame& frame, float* points);
+
 /// Points (u, v) of `count` vertices from their positions (x, y, z). `points` has room for kVertexRoom more points.
 inline constexpr std::size_t kVertexRoom = 16;
 void project_vertices(const float* positions, std::size_t count, const VertexFrame& frame, float* points);

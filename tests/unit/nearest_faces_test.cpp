@@ -117,4 +117,25 @@ TEST(NearestFaces, OfRandomScenesAreThoseOfTheCamera) {
   }
 }
 
+SampleGrid surface_grid(const SpaceVector& frame, double degrees, int width, int height, int per_side = 1) {
+  return {frame, Projection(ProjectionKind::Surface, degrees * kDegree, width, height), per_side};
+}
+
+TEST(NearestFaces, OfFisheyesAreThoseOfTheCamera) {
+  Random random(20260002);
+  for (int i = 0; i < 400; ++i) {
+    const test_scenes::TestScene scene = test_scenes::make_any_scene(random, 120);
+    const Vector from = test_scenes::make_origin(scene, random);
+    const Vector at = random.chance(0.8) ? scene.centre : test_scenes::make_origin(scene, random);
+    const int width = random.between(1, 70), height = random.between(1, 70);
+    const double fields[] = {0.01, 10, 50, 50, 90, 180, 360, 360};
+    const double degrees = fields[random.below(8)];
+    const SampleGrid grid = surface_grid(looking(from, at), degrees, width, height, random.chance(0.2) ? 2 : 1);
+    expect_as_asked(scene.mesh, grid,
+                    "scene " + std::to_string(i) + " (" + scene.name + "), " + std::to_string(degrees) + " degrees, " +
+                        std::to_string(width) + " x " + std::to_string(height));
+    if (HasFatalFailure()) return;
+  }
+}
+
 }  // namespace

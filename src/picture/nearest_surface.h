@@ -1,0 +1,61 @@
+#pragma once
+
+#include <facemap/scene.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "picture/ray_table.h"
+#include "picture/sample_grid.h"
+#include "simd/nearest_boxes.h"
+#include "simd/nearest_planes.h"
+#include "simd/nearest_tile.h"
+#include "simd/nearest_vertices.h"
+
+namespace facemap {
+
+/// A surface projection as the raster's kernels see it: square tiles of samples, each with a plane of its own, and
+/// boxes of faces on the curved map.
+struct SurfaceView {
+  SurfaceView(const Scene& scene, const SampleGrid& grid);
+
+  simd::SurfaceFrame vertices;
+  simd::BoxRules boxes;
+  double unit = 1;          ///< a power of two that brings the scene's lengths to about 1
+  double sample_angle = 0;  ///< radians
+  int tile_side = 1;        ///< samples; a power of two, at most kLargestTile
+  int tile_columns = 0, tile_rows = 0;
+  simd::PlaneFrame directions;  ///< (X, Y, Z) in the camera's axes, for set_up_large and find_tiles
+
+  static constexpr int kLargestTile = 32;
+};
+
+/// The samples of one tile.
+struct SurfaceTile {
+  int first_column, first_row, columns, rows;
+};
+
+SurfaceTile tile_of(const SurfaceView& view, const SampleGrid& grid, std::size_t tile);
+
+/// The directions of a tile's samples on a plane of its own.
+struct TilePlane {
+  simd::PlaneFrame frame;
+  double reach = 0;
+  alignas(64) float u[SurfaceView::kLargestTile * SurfaceView::kLargestTile + simd::kBlockFaces];
+  alignas(64) float v[SurfaceView::kLargestTile * SurfaceView::kLargestTile + simd::kBlockFaces];
+
+  void set(const SurfaceView& view, const SampleGrid& grid, const RayTable& rays, const SurfaceTile& tile);
+};
+
+/// Caps of all tiles, in the camera's axes.
+class SurfaceCaps {
+ public:
+  SurfaceCaps(const SurfaceView& view, const SampleGrid& grid);
+  simd::TileCaps caps() const { return {x_.data(), y_.data(), z_.data(), sine_.data(), count_}; }
+
+ private:
+  std::size_t count_;
+  std::vector<float> x_, y_, z_, sine_;
+};
+
+}  // namespace facemap

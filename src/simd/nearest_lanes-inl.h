@@ -1,0 +1,119 @@
+// What kernels that draw faces share. Included once a target, as foreach_target.h has it.
+#include <algorithm>
+#include <limits>
+
+#include "simd/nearest_planes.h"
+#include "simd/nearest_target.h"
+
+#if defined(FACEMAP_NEAREST_LANES) == defined(HWY_TARGET_TOGGLE)
+#ifdef FACEMAP_NEAREST_LANES
+#undef FACEMAP_NEAREST_LANES
+#else
+#define FACEMAP_NEAREST_LANES
+#endif
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace facemap::simd::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::ScalableTag<float>;
+using DI = hn::RebindToSigned<D>;
+using V = hn::Vec<D>;
+using VI = hn::Vec<DI>;
+using M = hn::Mask<D>;
+
+constexpr std::size_t kRoom = kBlockFaces;  // a vector's lanes at most
+constexpr float kInverseSharpness = 0x1p-17f;
+
+// An upper bound of w, from the errors that `sharp` stands for; none if it is never sharp.
+HWY_INLINE V largest_w(V w, V sharp) {
+  const D d;
+  const V more = hn::Mul(hn::Abs(w), hn::Set(d, kSharpShare));
+  const V bound = hn::Add(hn::Add(w, more), hn::Mul(sharp, hn::Set(d, kInverseSharpness * 1.0001f)));
+  return hn::IfThenElse(hn::Lt(sharp, hn::Set(d, kNeverSharp)), bound,
+                        hn::Set(d, std::numeric_limits<float>::infinity()));
+}
+
+// The lanes of `which` are pairs left open, those not in `inside` because the ray may miss the face.
+HWY_INLINE void draw_unsure_lanes(const RasterTarget& target, M which, M inside, V w, V sharp, VI samples, VI faces) {
+  const D d;
+  const DI di;
+  alignas(64) float bounds[kRoom];
+  alignas(64) std::int32_t at[kRoom], ids[kRoom];
+  const VI flag = hn::Set(di, std::numeric_limits<std::int32_t>::min());
+  const VI named = hn::IfThenElse(hn::RebindMask(di, inside), faces, hn::Or(faces, flag));
+  hn::CompressStore(largest_w(w, sharp), which, d, bounds);
+  hn::CompressStore(named, hn::RebindMask(di, which), di, ids);
+  const std::size_t count = hn::CompressStore(samples, hn::RebindMask(di, which), di, at);
+  for (std::size_t i = 0; i < count; ++i) {
+    draw_unsure(target, {static_cast<std::uint32_t>(at[i]), static_cast<std::uint32_t>(ids[i]), bounds[i]});
+  }
+}
+
+// Fragments of different faces, in any samples: `near` lanes are not surely outside, `inside` ones surely inside.
+HWY_INLINE void draw_scattered(const RasterTarget& target, M near, M inside, V w, V sharp, VI samples, VI faces) {
+  const D d;
+  const DI di;
+  const M sure = hn::And(inside, hn::Ge(w, sharp));
+  alignas(64) float ws[kRoom];
+  alignas(64) std::int32_t at[kRoom], ids[kRoom];
+  hn::CompressStore(w, sure, d, ws);
+  hn::CompressStore(faces, hn::RebindMask(di, sure), di, ids);
+  const std::size_t count = hn::CompressStore(samples, hn::RebindMask(di, sure), di, at);
+  for (std::size_t i = 0; i < count; ++i) draw_sample(target, static_cast<std::uint32_t>(at[i]), ws[i], ids[i]);
+  const M unsure = hn::AndNot(sure, near);
+  if (!hn::AllFalse(d, unsure)) draw_unsure_lanes(target, unsure, inside, w, sharp, samples, faces);
+}
+
+// Fragments of one face in neighbouring samples. Those from `count` on are not touched.
+HWY_INLINE void draw_neighbours(const RasterTarget& target, M near, M inside, V w, V sharp, std::uint32_t first,
+                                std::size_t count, std::uint32_t id) {
+  const D d;
+  const DI di;
+  const M sure = hn::And(inside, hn::Ge(w, sharp));
+
+  // The last samples of a row are copied, so that nothing beyond it is touched.
+  alignas(64) float last_w[kRoom] = {};
+  alignas(64) std::int32_t last_faces[kRoom] = {};
+  const bool is_whole = count >= hn::Lanes(d);
+  float* ws = target.w + first;
+  std::int32_t* ids = target.faces + first;
+  if (!is_whole) {
+    std::copy(ws, ws + count, last_w);
+    std::copy(ids, ids + count, last_faces);
+    ws = last_w;
+    ids = last_faces;
+  }
+  const V old_w = hn::LoadU(d, ws);
+  const VI old_ids = hn::LoadU(di, ids);
+  const VI new_ids = hn::Set(di, static_cast<std::int32_t>(id));
+  const M front = hn::And(sure, hn::Gt(w, old_w));
+  const VI apart = hn::Sub(hn::BitCast(di, w), hn::BitCast(di, old_w));
+  const auto close = hn::And(hn::Lt(hn::Abs(apart), hn::Set(di, kCloseUlps + 1)), hn::Gt(old_ids, hn::Set(di, -1)));
+  hn::StoreU(hn::IfThenElse(front, w, old_w), d, ws);
+  hn::StoreU(hn::IfThenElse(hn::RebindMask(di, front), new_ids, old_ids), di, ids);
+  if (!is_whole) {
+    std::copy(last_w, last_w + count, target.w + first);
+    std::copy(last_faces, last_faces + count, target.faces + first);
+  }
+
+  const VI samples = hn::Add(hn::Set(di, static_cast<std::int32_t>(first)), hn::Iota(di, 0));
+  const M contested = hn::And(sure, hn::RebindMask(d, close));
+  if (!hn::AllFalse(d, contested)) {
+    const V loser_w = hn::IfThenElse(front, old_w, w);
+    const VI losers = hn::IfThenElse(hn::RebindMask(di, front), old_ids, new_ids);
+    draw_unsure_lanes(target, contested, contested, loser_w, hn::Zero(d), samples, losers);
+  }
+  const M unsure = hn::AndNot(sure, near);
+  if (!hn::AllFalse(d, unsure)) draw_unsure_lanes(target, unsure, inside, w, sharp, samples, new_ids);
+}
+
+}  // namespace
+}  // namespace facemap::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
