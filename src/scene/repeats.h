@@ -38,10 +38,11 @@ class RepeatFinder {
     const Parts parts = distribute(count, part_bits, key_of);
     std::vector<std::vector<Repeat>> repeats(std::size_t{1} << part_bits);
     for_ranges(executor_, repeats.size(), 1, [&](std::size_t first, std::size_t last, int) {
-      std::vector<std::uint32_t> table;
+      Scratch scratch;
       for (std::size_t part = first; part != last; ++part) {
         Entry* const begin = parts.entries.get() + parts.begins[part];
-        find_in_part(begin, parts.entries.get() + parts.begins[part + 1], key_of, table, repeats[part]);
+        Entry* const end = parts.entries.get() + parts.begins[part + 1];
+        find_in_part(begin, keep_suspects(begin, end, scratch), key_of, scratch.table, repeats[part]);
       }
     });
     std::vector<Repeat> all;
@@ -52,6 +53,10 @@ class RepeatFinder {
  private:
   struct Entry {
     std::uint32_t hash, item;
+  };
+  struct Scratch {
+    std::vector<std::uint64_t> seen, seen_again;  ///< a bit for each value of some bits of a hash
+    std::vector<std::uint32_t> table;
   };
   struct Parts {
     std::unique_ptr<Entry[]> entries;  ///< those of a part side by side, in the order of the items
@@ -107,6 +112,27 @@ class RepeatFinder {
       }
     });
     return parts;
+  }
+
+  /// Moves the entries whose hashes others have, too, by some of their bits, to the front: a few in a hundred, unless
+  /// there are repeats. Returns their end.
+  static Entry* keep_suspects(Entry* begin, Entry* end, Scratch& scratch) {
+    const std::size_t mask = std::bit_floor(32 * static_cast<std::size_t>(end - begin) + 64) - 1;
+    scratch.seen.assign((mask >> 6) + 1, 0);
+    scratch.seen_again.assign((mask >> 6) + 1, 0);
+    for (const Entry* entry = begin; entry != end; ++entry) {
+      const std::size_t place = entry->hash & mask;
+      const std::uint64_t bit = std::uint64_t{1} << (place & 63);
+      scratch.seen_again[place >> 6] |= scratch.seen[place >> 6] & bit;
+      scratch.seen[place >> 6] |= bit;
+    }
+    Entry* kept = begin;
+    for (const Entry* entry = begin; entry != end; ++entry) {
+      const std::size_t place = entry->hash & mask;
+      *kept = *entry;
+      kept += scratch.seen_again[place >> 6] >> (place & 63) & 1;
+    }
+    return kept;
   }
 
   template <class KeyOf>
