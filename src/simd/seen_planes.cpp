@@ -12,10 +12,6 @@ HWY_BEFORE_NAMESPACE();
 namespace facemap::simd::HWY_NAMESPACE {
 namespace {
 
-// Offset n . (a - L): 2 u for the differences of n, 1 for its products, 1 for its subtraction; 1 for a - L, 3 for the
-// dot product: 8 u of sum spread_i |a_i - L_i|. Twice that has room for what is of second order.
-constexpr double kOffsetError = 0x1p-49;
-
 // Slope n . d: 4 + 3 = 7 u of the spreads' sum, |d_i| being at most 1 + 2^-22. The point's distance |delta / w|
 // (letters of ray_parameter) is off by at most (8 u rho + 7 u |t|) sum / |w|, |t| <= rho (1 + 2^-21), rho the farthest
 // corner's distance: less than 16 u rho sum / |w|.

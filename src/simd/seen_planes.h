@@ -10,6 +10,11 @@
 /// products of three differences of floats stay between 2^-447 and 2^390.
 namespace facemap::simd {
 
+/// A computed n . (a - P), P a float32 point, is off by less than this share of the sum of spread_i |a_i - P_i|: 2 u
+/// for the differences of n, 1 for its products, 1 for its subtraction; 1 for a - P, 3 for the dot product. Twice these
+/// 8 u have room for what is of second order.
+inline constexpr double kOffsetError = 0x1p-49;
+
 /// Faces about a camera K.
 struct PlaneBatch {
   std::size_t count = 0;

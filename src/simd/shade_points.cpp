@@ -14,9 +14,6 @@ HWY_BEFORE_NAMESPACE();
 namespace facemap::simd::HWY_NAMESPACE {
 namespace {
 
-// n . (a - P) for a float32 point P is off by at most this share of its terms: see seen_planes.cpp.
-constexpr double kSideError = 0x1p-49;
-
 // Lifted points beyond this (world units) may overflow float32.
 constexpr double kLargestFloat = 0x1p127;
 
@@ -101,7 +98,7 @@ HWY_INLINE SideTest test_side(const PlaneBatch& planes, const ShadedFaces& faces
   const Three rounded = {rounded_to_float(P.x), rounded_to_float(P.y), rounded_to_float(P.z)};
   const Three from_P = minus(a, rounded);
   const V value = hn::Mul(dot(gather(planes.normal, slots), from_P), hn::GatherIndex(D(), faces.side, slots));
-  const V error = hn::Mul(constant(kSideError), dot(gather(planes.spread, slots), magnitude(from_P)));
+  const V error = hn::Mul(constant(kOffsetError), dot(gather(planes.spread, slots), magnitude(from_P)));
   const Mask sure = hn::And(is_below(P, kLargestFloat), hn::Gt(hn::Abs(value), error));
   return {hn::Gt(value, hn::Zero(D())), sure};
 }
