@@ -123,7 +123,14 @@ SurfaceTile tile_of(const SurfaceView& view, const SampleGrid& grid, std::size_t
   const auto columns = static_cast<std::size_t>(view.tile_columns);
   const int x = static_cast<int>(tile % columns) * view.tile_side,
             y = static_cast<int>(tile / columns) * view.tile_side;
-  return {x, y, std::min(view.tile_side, grid.columns() - x), std::min(view.tile_side, grid.rows() - y)};
+  SurfaceTile t = {x, y, std::min(view.tile_side, grid.columns() - x), std::min(view.tile_side, grid.rows() - y)};
+  const double half_columns = grid.columns() * 0.5, half_rows = grid.rows() * 0.5;
+  const double rim = elementary::kPi / view.sample_angle, slack = 1;  // samples
+  const double u0 = x - half_columns, u1 = u0 + t.columns, v0 = y - half_rows, v1 = v0 + t.rows;
+  const auto length = [](double u, double v) { return std::sqrt(u * u + v * v); };
+  t.is_whole = length(std::max(-u0, u1), std::max(-v0, v1)) + slack < rim;
+  t.is_empty = length(std::max({u0, -u1, 0.0}), std::max({v0, -v1, 0.0})) - slack > rim;
+  return t;
 }
 
 void TilePlane::set(const SurfaceView& view, const SampleGrid& grid, const RayTable& rays, const SurfaceTile& tile) {
@@ -135,40 +142,44 @@ void TilePlane::set(const SurfaceView& view, const SampleGrid& grid, const RayTa
   set_axes(x, y, z, f, view.unit, frame);
   for (int i = 0; i < 3; ++i) frame.origin[i] = grid.frame.position()[i];
 
-  reach = 0;
-  const auto side = static_cast<std::size_t>(view.tile_side);
-  std::fill(u, u + side * side + simd::kBlockFaces, std::numeric_limits<float>::quiet_NaN());
-  std::fill(v, v + side * side + simd::kBlockFaces, std::numeric_limits<float>::quiet_NaN());
-  double columns[simd::kSeenBatch] = {}, rows[simd::kSeenBatch] = {};
-  float dx[simd::kSeenBatch], dy[simd::kSeenBatch], dz[simd::kSeenBatch];
-  const std::size_t rows_a_batch = std::max<std::size_t>(1, simd::kSeenBatch / side);
-  const auto row_count = static_cast<std::size_t>(tile.rows), column_count = static_cast<std::size_t>(tile.columns);
-  for (std::size_t first = 0; first < row_count; first += rows_a_batch) {
-    const std::size_t last = std::min(first + rows_a_batch, row_count);
-    for (std::size_t row = first; row < last; ++row) {
-      for (std::size_t column = 0; column < column_count; ++column) {
-        const std::size_t i = (row - first) * side + column;
-        columns[i] = rays.columns[static_cast<std::size_t>(tile.first_column) + column];
-        rows[i] = rays.rows[static_cast<std::size_t>(tile.first_row) + row];
-      }
-    }
-    simd::ray_directions(rays.frame, columns, rows, (last - first) * side, dx, dy, dz);
-    for (std::size_t row = first; row < last; ++row) {
-      for (std::size_t column = 0; column < column_count; ++column) {
-        const std::size_t i = (row - first) * side + column;
-        const MapPoint point =
-            grid.map_point(tile.first_column + static_cast<int>(column), tile.first_row + static_cast<int>(row));
-        if (!grid.projection.has_direction(point)) continue;
-        const DVector d(dx[i], dy[i], dz[i]);
-        const double scale = f / dot(z, d);
-        u[row * side + column] = static_cast<float>(dot(x, d) * scale);
-        v[row * side + column] = static_cast<float>(dot(y, d) * scale);
-        reach = std::max({reach, std::fabs(dot(x, d) * scale), std::fabs(dot(y, d) * scale)});
-      }
-    }
-  }
+  double axes[3][3];
+  store(x, 1, axes[0]);
+  store(y, 1, axes[1]);
+  store(z, 1, axes[2]);
+  set_points(axes, f, grid, rays, tile, static_cast<std::size_t>(view.tile_side));
   // Points are rounded to float32; in double, sums and the division lose less than 2^-48 of f.
   set_errors(f, reach, 2 * kFloatHalfUlp * reach + 0x1p-44 * f, frame);
+}
+
+// Rows in batches; columns beyond the tile's repeat its last.
+void TilePlane::set_points(const double axes[3][3], double per_radian, const SampleGrid& grid, const RayTable& rays,
+                           const SurfaceTile& tile, std::size_t side) {
+  reach = 0;
+  double columns[simd::kSeenBatch] = {}, rows[simd::kSeenBatch] = {};
+  float x[simd::kSeenBatch] = {}, y[simd::kSeenBatch] = {}, z[simd::kSeenBatch] = {};
+  const std::size_t rows_a_batch = std::max<std::size_t>(1, simd::kSeenBatch / side);
+  const auto row_count = static_cast<std::size_t>(tile.rows), last_column = static_cast<std::size_t>(tile.columns) - 1;
+  for (std::size_t first = 0; first < row_count; first += rows_a_batch) {
+    const std::size_t last = std::min(first + rows_a_batch, row_count), count = (last - first) * side;
+    const std::size_t room = (count + simd::kBlockFaces - 1) / simd::kBlockFaces * simd::kBlockFaces;
+    for (std::size_t i = 0; i < room; ++i) {
+      const std::size_t row = std::min(first + i / side, last - 1), column = std::min(i % side, last_column);
+      columns[i] = rays.columns[static_cast<std::size_t>(tile.first_column) + column];
+      rows[i] = rays.rows[static_cast<std::size_t>(tile.first_row) + row];
+    }
+    simd::ray_directions(rays.frame, columns, rows, room, x, y, z);
+    const std::size_t at = first * side;
+    reach = std::max(reach, simd::find_tile_points(axes, per_radian, x, y, z, room, u + at, v + at));
+  }
+  if (tile.is_whole) return;
+  for (int row = 0; row < tile.rows; ++row) {
+    for (int column = 0; column < tile.columns; ++column) {
+      const MapPoint point = grid.map_point(tile.first_column + column, tile.first_row + row);
+      if (grid.projection.has_direction(point)) continue;
+      const std::size_t i = static_cast<std::size_t>(row) * side + static_cast<std::size_t>(column);
+      u[i] = v[i] = std::numeric_limits<float>::quiet_NaN();
+    }
+  }
 }
 
 SurfaceCaps::SurfaceCaps(const SurfaceView& view, const SampleGrid& grid)

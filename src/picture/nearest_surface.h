@@ -33,6 +33,8 @@ struct SurfaceView {
 /// The samples of one tile.
 struct SurfaceTile {
   int first_column, first_row, columns, rows;
+  bool is_whole = false;  ///< all of them have directions
+  bool is_empty = false;  ///< none of them has
 };
 
 SurfaceTile tile_of(const SurfaceView& view, const SampleGrid& grid, std::size_t tile);
@@ -41,10 +43,14 @@ SurfaceTile tile_of(const SurfaceView& view, const SampleGrid& grid, std::size_t
 struct TilePlane {
   simd::PlaneFrame frame;
   double reach = 0;
-  alignas(64) float u[SurfaceView::kLargestTile * SurfaceView::kLargestTile + simd::kBlockFaces];
-  alignas(64) float v[SurfaceView::kLargestTile * SurfaceView::kLargestTile + simd::kBlockFaces];
+  alignas(64) float u[SurfaceView::kLargestTile * SurfaceView::kLargestTile + simd::kBlockFaces] = {};
+  alignas(64) float v[SurfaceView::kLargestTile * SurfaceView::kLargestTile + simd::kBlockFaces] = {};
 
   void set(const SurfaceView& view, const SampleGrid& grid, const RayTable& rays, const SurfaceTile& tile);
+
+ private:
+  void set_points(const double axes[3][3], double per_radian, const SampleGrid& grid, const RayTable& rays,
+                  const SurfaceTile& tile, std::size_t side);
 };
 
 /// Caps of all tiles, in the camera's axes.

@@ -62,12 +62,14 @@ class TileRaster {
   void draw(std::size_t number, const TileFace* first, const TileFace* last, NearestFaces& nearest,
             std::vector<std::uint32_t>& loose, Counters& counters) {
     const SurfaceTile tile = tile_of(view_, grid_, number);
-    plane_.set(view_, grid_, rays_, tile);
     std::fill(std::begin(w_), std::end(w_), 0.0f);
     std::fill(std::begin(faces_), std::end(faces_), kNoFace);
     contests_.clear();
-    for (const TileFace* f = first; f != last; ++f) add(*f);
-    for (int c = 0; c <= kClasses; ++c) flush(c);
+    if (first != last && !tile.is_empty) {
+      plane_.set(view_, grid_, rays_, tile);
+      for (const TileFace* f = first; f != last; ++f) add(*f);
+      for (int c = 0; c <= kClasses; ++c) flush(c);
+    }
     resolve_contests(scene_, grid_, {tile.first_column, tile.first_row}, target(), loose, &counters);
     for (int row = 0; row < tile.rows; ++row) {
       const auto at = static_cast<std::size_t>(tile.first_row + row) * static_cast<std::size_t>(grid_.columns()) +

@@ -80,7 +80,36 @@ HWY_INLINE void draw_lanes(const FaceBlock& block, const FaceBoxes& boxes, std::
   }
 }
 
+using DD = hn::ScalableTag<double>;
+using VD = hn::Vec<DD>;
+
+HWY_INLINE VD dot(const double axis[3], VD x, VD y, VD z) {
+  const DD d;
+  return hn::Add(hn::Add(hn::Mul(hn::Set(d, axis[0]), x), hn::Mul(hn::Set(d, axis[1]), y)),
+                 hn::Mul(hn::Set(d, axis[2]), z));
+}
+
 }  // namespace
+
+double find_tile_points(const double axes[3][3], double per_radian, const float* x, const float* y, const float* z,
+                        std::size_t count, float* u, float* v) {
+  const DD d;
+  const hn::Rebind<float, DD> floats;
+  VD reach = hn::Zero(d);
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const VD dx = hn::PromoteTo(d, hn::LoadU(floats, x + i));
+    const VD dy = hn::PromoteTo(d, hn::LoadU(floats, y + i));
+    const VD dz = hn::PromoteTo(d, hn::LoadU(floats, z + i));
+    const VD scale = hn::Div(hn::Set(d, per_radian), dot(axes[2], dx, dy, dz));
+    const VD at_u = hn::Mul(dot(axes[0], dx, dy, dz), scale), at_v = hn::Mul(dot(axes[1], dx, dy, dz), scale);
+    reach = hn::Max(reach, hn::Max(hn::Abs(at_u), hn::Abs(at_v)));
+    hn::StoreU(hn::DemoteTo(floats, at_u), floats, u + i);
+    hn::StoreU(hn::DemoteTo(floats, at_v), floats, v + i);
+  }
+  alignas(64) double reaches[kRoom];
+  hn::Store(reach, d, reaches);
+  return *std::max_element(reaches, reaches + hn::Lanes(d));
+}
 
 void draw_tile_faces(const FaceBlock& block, const FaceBoxes& boxes, const TilePoints& points,
                      const RasterTarget& target) {
@@ -151,6 +180,11 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace facemap::simd {
+
+double find_tile_points(const double axes[3][3], double per_radian, const float* x, const float* y, const float* z,
+                        std::size_t count, float* u, float* v) {
+  return FACEMAP_DISPATCH(find_tile_points)(axes, per_radian, x, y, z, count, u, v);
+}
 
 void draw_tile_faces(const FaceBlock& block, const FaceBoxes& boxes, const TilePoints& points,
                      const RasterTarget& target) {

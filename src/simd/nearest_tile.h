@@ -14,6 +14,12 @@ struct TilePoints {
   const float *u, *v;
 };
 
+/// Points of `count` directions (a multiple of kBlockFaces) on the plane about axes[2], per_radian samples a radian: of
+/// d, ((axes[0] . d), (axes[1] . d)) * per_radian / (axes[2] . d) in double, rounded to float32. Returns the greatest
+/// |u| or |v|.
+double find_tile_points(const double axes[3][3], double per_radian, const float* x, const float* y, const float* z,
+                        std::size_t count, float* u, float* v);
+
 /// Draws faces over boxes of a tile, 16 in lanes, one sample each at a time. Unsure faces are passed over.
 void draw_tile_faces(const FaceBlock& block, const FaceBoxes& boxes, const TilePoints& points,
                      const RasterTarget& target);
