@@ -215,6 +215,13 @@ bool blocks(const Triangle& G, int s_G, const Vector& L, const GivenPoint& point
   return blocks_staged(G, s_G, L, point, counters);
 }
 
+bool reaches_beyond(const Triangle& F, const Triangle& G, int s_G, Counters* counters) {
+  for (const Vector& corner : F) {
+    if (s_G * side(G, corner, counters) < 0) return true;
+  }
+  return false;
+}
+
 Tracked ray_parameter(const TruePoint& point) {
   const Tracked t = plain::ray_parameter(point);
   return t.error < kPlainlySharp * std::fabs(t.value) ? t : tracked_ray_parameter(point);

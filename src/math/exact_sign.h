@@ -56,6 +56,10 @@ struct GivenPoint {
 bool blocks(const Triangle& G, int s_G, const Vector& L, const TruePoint& point, Counters* counters = nullptr);
 bool blocks(const Triangle& G, int s_G, const Vector& L, const GivenPoint& point, Counters* counters = nullptr);
 
+/// Whether a corner of F stands strictly beyond G's plane, seen from where G's side is s_G. If none does, G blocks no
+/// point of F, whose points are means of its corners: so it is if F lies in G's plane.
+bool reaches_beyond(const Triangle& F, const Triangle& G, int s_G, Counters* counters = nullptr);
+
 /// Parameter t of a true point, with its error bound.
 Tracked ray_parameter(const TruePoint& point);
 

@@ -4,6 +4,7 @@
 
 #include "map/face_planes.h"
 #include "math/exact_sign.h"
+#include "picture/face_pairs.h"
 
 namespace facemap {
 namespace {
@@ -82,7 +83,9 @@ void clear_blocked(const LightWork& work, const SampleGrid& grid, SeenPoints& se
   for_each_light(work, seen.stride, seen.masks, counters,
                  [&](std::size_t l, std::vector<std::uint8_t>& plane, ShadowScratch& scratch, Counters& own) {
                    const Vector& light = work.lights[l];
+                   FacePairs pairs(scene);
                    const auto is_between = [&](std::size_t point, std::uint32_t face, int face_side) {
+                     if (pairs.is_clear(points.faces[point], face, face_side, own)) return false;
                      return blocks(triangle_of(scene, face), face_side, light,
                                    true_point(scene, grid, points.samples[point], points.faces[point]), &own);
                    };

@@ -239,6 +239,12 @@ TEST_P(ExactSignKinds, BlockersOfTruePointsEqualGmp) {
     const TruePoint p{K, d, f, slope};
     const bool expected = s_G != 0 && blocks(G, s_G, L, true_point(p));
     ASSERT_EQ(facemap::blocks(G, s_G, L, p, &counters), expected) << "round " << i << ", seed " << kSeed;
+    bool reaches = false;
+    for (const Vector& corner : f) reaches = reaches || s_G * side(G, corner) < 0;
+    ASSERT_EQ(facemap::reaches_beyond(f, G, s_G), reaches) << "round " << i << ", seed " << kSeed;
+    if (expected && covers(f, slope, big(K), big(d)).hit) {
+      ASSERT_TRUE(reaches) << "round " << i << ", seed " << kSeed;
+    }
     ++asked;
     blocked += expected;
   }
