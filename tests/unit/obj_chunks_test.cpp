@@ -68,7 +68,7 @@ void expect_equal(const Reading& a, const Reading& b) {
 void expect_same_by_all(const std::string& text) {
   ASSERT_GE(text.size(), ObjChunks::kLeastBytes) << "not read in chunks";
   const Reading one = read(text, with_threads(1));
-  for (const int threads : {2, 3, 8}) expect_equal(one, read(text, with_threads(threads)));
+  for (const int threads : {2, 5}) expect_equal(one, read(text, with_threads(threads)));
 }
 
 /// A random OBJ text of some size. The flavour decides which statements are in it.
@@ -146,10 +146,10 @@ class TextMaker {
   std::size_t vertices_ = 0, textures_ = 0, normals_ = 0;
 };
 
-constexpr std::size_t kBytes = 2 * ObjChunks::kLeastBytes;
+constexpr std::size_t kBytes = ObjChunks::kLeastBytes + 5000;  // some chunks
 
 TEST(ObjChunks, RandomTextsReadTheSame) {
-  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     expect_same_by_all(TextMaker(seed, seed % 2 == 0).make(kBytes + 1000 * seed));
   }
