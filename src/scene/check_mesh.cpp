@@ -43,8 +43,7 @@ void check_indices(const Executor& executor, const std::vector<Corners>& corners
   const auto all_right = [&](std::size_t first, std::size_t last) {
     bool right = true;
     for (std::size_t i = first; i != last; ++i) {
-      const Corners& c = corners[i];
-      right &= is_right(c[0]) & is_right(c[1]) & is_right(c[2]);
+      for (const std::uint32_t index : corners[i]) right &= is_right(index);
     }
     return right;
   };

@@ -78,8 +78,8 @@ Remains cancel_nearby(const Scene& scene, const VertexSets& sets, std::size_t be
   FarWindow far(remains.edges);
   NearWindow near(far);
   std::uint32_t root_before = kNoIndex;
-  Edge last =
-      kNone;  // the edge back to the first corner: in a polygon's fan of faces the next one begins with its opposite
+  // The edge back to a face's first corner: in a polygon's fan of faces the next one begins with its opposite.
+  Edge last = kNone;
   for (std::size_t face = begin; face != end; ++face) {
     const Corners c = welded_corners(scene.mesh().triangles[face], scene.welded());
     const std::uint32_t root = sets.root_of(c[0]);
@@ -101,19 +101,19 @@ Remains cancel_nearby(const Scene& scene, const VertexSets& sets, std::size_t be
   return remains;
 }
 
-std::uint64_t weight(Edge edge) {
+std::uint32_t weight(Edge edge) {
   const std::uint64_t h = undirected(edge) * 0xD6E8FEB86659FD93u;
-  return (h ^ h >> 32) * 0x9E3779B97F4A7C15u;
+  return static_cast<std::uint32_t>((h ^ h >> 32) * 0x9E3779B97F4A7C15u >> 32);
 }
 
 /// Gives each pair of vertices a weight and sums it over the edges of a set, with the sign of their direction. Where
 /// edges cancel the sum is 0; so it proves most open sets open. (A sum of 0 proves nothing.)
 void mark_sets_by_sums(const std::vector<Remains>& left, const VertexSets& sets, const Executor& executor,
                        std::vector<SetKind>& kinds) {
-  std::vector<std::uint64_t> sums(sets.size(), 0);
+  std::vector<std::uint32_t> sums(sets.size(), 0);
   executor.for_each(left.size(), [&](std::size_t piece, int) {
     for (const Edge e : left[piece].edges) {
-      const std::uint64_t w = weight(e);
+      const std::uint32_t w = weight(e);
       std::atomic_ref(sums[sets.root_of(start_of(e))])
           .fetch_add(e == undirected(e) ? w : 0 - w, std::memory_order_relaxed);
     }
@@ -153,7 +153,7 @@ void mark_the_rest(const std::vector<Remains>& left, const VertexSets& sets, con
     Directions edges;
     for (const Remains& remains : left) {
       for (const Edge e : remains.edges) {
-        if (classes > 1 && (weight(e) >> 32) * classes >> 32 != which) continue;
+        if (classes > 1 && weight(e) * std::uint64_t{classes} >> 32 != which) continue;
         if (kinds[sets.root_of(start_of(e))] == SetKind::Open) continue;
         (e == undirected(e) ? edges.up : edges.down).push_back(undirected(e));
       }

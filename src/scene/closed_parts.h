@@ -19,7 +19,7 @@ class Scene;
 /// are one here, which is as good: all the proof asks of a part is that its edges cancel, as they do in a union.
 class ClosedParts {
  public:
-  /// Time: about 20 ns a face. Memory: at its peak 12 bytes a vertex and the edges whose opposite is far away in the
+  /// Time: about 20 ns a face. Memory: at its peak 10 bytes a vertex and the edges whose opposite is far away in the
   /// file, 8 bytes each; kept are 24 bytes a closed part, and 8 for each run of faces of one part.
   ClosedParts(const Scene& scene, const Executor& executor);
 

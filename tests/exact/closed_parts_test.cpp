@@ -380,6 +380,7 @@ TEST(ClosedParts, EntriesOfClosedPartsMayBeSkipped) {
       const int a_face = random.below(static_cast<int>(solid.face_count()));
       if (random.chance(0.15)) solid.triangles.erase(solid.triangles.begin() + a_face);
       if (random.chance(0.15)) solid.triangles.push_back(solid.triangles[a_face / 2]);
+      if (random.chance(0.15)) std::swap(solid.triangles[a_face / 3][0], solid.triangles[a_face / 3][1]);
       mesh = joined(mesh, solid);
     }
     if (random.chance(0.2)) mesh = joined(mesh, box({-4, -4, -2}, {4, 4, -1}));
