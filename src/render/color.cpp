@@ -68,6 +68,10 @@ void encode_srgb(const Color* colors, std::size_t count, std::uint8_t* bytes) {
   const LevelTable& table = level_table();
   for (std::size_t i = 0; i < count; ++i) {
     const Color& color = colors[i];
+    if (i > 0 && color == colors[i - 1]) {  // often
+      for (int k = 0; k < 3; ++k, ++bytes) *bytes = bytes[-3];
+      continue;
+    }
     for (const float channel : {color.r, color.g, color.b}) *bytes++ = static_cast<std::uint8_t>(table.level(channel));
   }
 }

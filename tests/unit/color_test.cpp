@@ -3,6 +3,9 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
+
+#include "render/srgb.h"
 
 namespace {
 
@@ -79,6 +82,33 @@ TEST(Color, AddsSubtractsAndMultiplies) {
   EXPECT_EQ(a - b, (Color{0.5f, 1.75f, 1}));
   EXPECT_EQ(a * 2, (Color{2, 4, 6}));
   EXPECT_EQ(a * b, (Color{0.5f, 0.5f, 6}));
+}
+
+TEST(Color, ManyAtOnceAreTheSame) {
+  std::vector<float> values = {0, -0.0f, -1, 1, 2, 0.5f, 1e-45f, 1e-30f, 3e38f};
+  for (const float odd : {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity(),
+                          std::numeric_limits<float>::infinity(), std::nextafter(1.0f, 0.0f)}) {
+    values.push_back(odd);
+  }
+  for (int wanted = 1; wanted < 256; ++wanted) {
+    const float first = where_level_begins(wanted);
+    values.insert(values.end(), {first, std::nextafter(first, 0.0f), std::nextafter(first, 1.0f)});
+  }
+  for (int i = 0; i <= 9000; ++i) values.push_back(static_cast<float>(i) / 8192);
+  values.insert(values.end(), 30, 0.125f);  // the same colour again and again
+  while (values.size() % 3 != 0) values.push_back(0.25f);
+  std::vector<Color> colors;
+  for (std::size_t i = 0; i < values.size(); i += 3) colors.push_back({values[i], values[i + 1], values[i + 2]});
+
+  for (const std::size_t count : {colors.size(), std::size_t{1}, std::size_t{5}, std::size_t{6}}) {
+    std::vector<std::uint8_t> bytes(3 * count + 1, 77);
+    facemap::encode_srgb(colors.data(), count, bytes.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t rgb = std::uint32_t{bytes[3 * i]} << 16 | bytes[3 * i + 1] << 8 | bytes[3 * i + 2];
+      ASSERT_EQ(rgb, colors[i].to_24_bit()) << i;
+    }
+    EXPECT_EQ(bytes.back(), 77) << "nothing is written behind the end";
+  }
 }
 
 }  // namespace
