@@ -113,18 +113,24 @@ class PlaneRaster {
       const simd::FaceBoxes block = {boxes.faces + i, boxes.x0 + i, boxes.x1 + i,
                                      boxes.y0 + i,    boxes.y1 + i, std::min(simd::kBlockFaces, boxes.size - i)};
       if (queue < simd::kSmallQueues) {
-        draw_small(block, band);
+        draw_small(queue, block, band);
       } else {
         draw_large(block, band);
       }
     }
   }
 
-  void draw_small(const simd::FaceBoxes& boxes, Band& band) {
+  void draw_small(int queue, const simd::FaceBoxes& boxes, Band& band) {
     simd::FaceBlock block;
     simd::set_up_faces(source_, view_.planes, view_.first_u, view_.first_v, boxes, block);
-    simd::draw_faces(block, boxes, target(band));
-    for (std::size_t i = 0; i < boxes.count; ++i) {
+    if (queue <= simd::kLastBoxQueue) {
+      simd::draw_faces(block, boxes, target(band));
+    } else if (queue <= simd::kLastThinQueue) {
+      simd::draw_thin_faces(block, boxes, target(band));
+    } else {
+      simd::draw_wide_faces(block, boxes, target(band));
+    }
+    for (std::size_t i = 0; block.has_unsure && i < boxes.count; ++i) {
       if (block.is_unsure[i]) draw_edge_on(boxes.faces[i], box(boxes, i), band);
     }
   }

@@ -29,9 +29,9 @@ struct BoxQueue {
 };
 
 /// Boxes of at most this many samples share a queue, so that 16 faces are done at about the same time; larger ones
-/// come last.
-inline constexpr int kSmallQueues = 5;
-inline constexpr float kQueueSamples[kSmallQueues] = {1, 4, 12, 40, 120};
+/// come last. The first queues are for boxes drawn whole, the next for spans of rows in lanes.
+inline constexpr int kSmallQueues = 6, kLastBoxQueue = 1, kLastThinQueue = 4;
+inline constexpr float kQueueSamples[kSmallQueues] = {1, 4, 12, 40, 120, 0x1p14f};
 
 /// Boxes of the triangles [first, first + count), three indices each, whose vertices have `points`. Faces that no
 /// sample can see are left out. Each queue needs room for count + kVertexRoom more.

@@ -32,6 +32,7 @@ using D = hn::ScalableTag<double>;
 using V = hn::Vec<D>;
 using M = hn::Mask<D>;
 using Floats = hn::Rebind<float, D>;
+using Integers = hn::Rebind<std::int32_t, D>;
 
 constexpr double kEdgeRoundings = 15 * 0x1p-24;
 constexpr double kDepthRoundings = 10 * 0x1p-24;
@@ -73,10 +74,11 @@ struct Corners {
 HWY_INLINE void gather(const FaceSource& source, const std::uint32_t* faces, std::size_t count, Corners& corners) {
   const hn::ScalableTag<float> d;
   const hn::RebindToSigned<decltype(d)> di;
-  alignas(64) std::int32_t at[kBlockFaces];
-  for (std::size_t i = 0; i < kBlockFaces; ++i) at[i] = static_cast<std::int32_t>(3 * faces[std::min(i, count - 1)]);
+  alignas(64) std::int32_t ids[kBlockFaces];
+  std::fill(ids, ids + kBlockFaces, static_cast<std::int32_t>(faces[0]));  // the rest of the block repeats the first
+  std::copy(faces, faces + count, ids);
   for (std::size_t i = 0; i < kBlockFaces; i += hn::Lanes(d)) {
-    const auto triangle = hn::Load(di, at + i);
+    const auto id = hn::Load(di, ids + i), triangle = hn::Add(id, hn::Add(id, id));
     for (int corner = 0; corner < 3; ++corner) {
       const auto* indices = reinterpret_cast<const std::int32_t*>(source.triangles) + corner;
       const auto vertex = hn::GatherIndex(di, indices, triangle);
@@ -133,6 +135,11 @@ HWY_INLINE Planes planes_of(const PlaneFrame& f, const Corners& corners, std::si
     planes.edge[k] = {hn::Mul(edges[k].x, scale), hn::Mul(edges[k].y, scale), hn::Mul(edges[k].z, scale)};
   }
 
+  const V none = constant(-kLargestFloat);
+  planes.edge[0] = {hn::IfThenZeroElse(planes.is_unsure, planes.edge[0].x),
+                    hn::IfThenZeroElse(planes.is_unsure, planes.edge[0].y),
+                    hn::IfThenElse(planes.is_unsure, none, planes.edge[0].z)};
+
   // Where D itself is not sharp, or w out of range, depths are not used.
   const V inverse = hn::Div(constant(1), determinant);
   const Vec w = {hn::Mul(n.x, inverse), hn::Mul(n.y, inverse), hn::Mul(n.z, inverse)};
@@ -179,6 +186,7 @@ HWY_INLINE void store(const Planes& planes, V u, V v, std::size_t i, FaceBlock& 
   const Floats floats;
   hn::Store(hn::DemoteTo(floats, planes.sharp), floats, block.sharp + i);
   store_flags(planes.is_unsure, block.is_unsure + i);
+  block.has_unsure = block.has_unsure || !hn::AllFalse(D(), planes.is_unsure);
 }
 
 }  // namespace
@@ -188,17 +196,15 @@ void set_up_faces(const FaceSource& source, const PlaneFrame& frame, double firs
   const D d;
   Corners corners;
   gather(source, boxes.faces, boxes.count, corners);
-  alignas(64) double u[kBlockFaces], v[kBlockFaces], width[kBlockFaces], height[kBlockFaces];
-  for (std::size_t i = 0; i < kBlockFaces; ++i) {
-    const std::size_t from = std::min(i, boxes.count - 1);
-    u[i] = first_u + boxes.x0[from];
-    v[i] = first_v + boxes.y0[from];
-    width[i] = boxes.x1[from] - boxes.x0[from];
-    height[i] = boxes.y1[from] - boxes.y0[from];
-  }
+  block.has_unsure = false;
+  const Integers integers;
   for (std::size_t i = 0; i < kBlockFaces; i += hn::Lanes(d)) {
-    const Planes planes = planes_of(frame, corners, i, hn::Load(d, width + i), hn::Load(d, height + i), hn::Zero(d));
-    store(planes, hn::Load(d, u + i), hn::Load(d, v + i), i, block);
+    const V x0 = hn::PromoteTo(d, hn::LoadU(integers, boxes.x0 + i)),
+            x1 = hn::PromoteTo(d, hn::LoadU(integers, boxes.x1 + i));
+    const V y0 = hn::PromoteTo(d, hn::LoadU(integers, boxes.y0 + i)),
+            y1 = hn::PromoteTo(d, hn::LoadU(integers, boxes.y1 + i));
+    const Planes planes = planes_of(frame, corners, i, hn::Sub(x1, x0), hn::Sub(y1, y0), hn::Zero(d));
+    store(planes, hn::Add(constant(first_u), x0), hn::Add(constant(first_v), y0), i, block);
   }
 }
 
@@ -209,6 +215,7 @@ void set_up_tile_faces(const FaceSource& source, const PlaneFrame& frame, double
   gather(source, faces, count, corners);
   alignas(64) double side[kBlockFaces] = {};
   for (std::size_t i = 0; i < count; ++i) side[i] = sides == nullptr ? 0 : sides[i];
+  block.has_unsure = false;
   for (std::size_t i = 0; i < kBlockFaces; i += hn::Lanes(d)) {
     const Planes planes = planes_of(frame, corners, i, constant(reach), constant(reach), hn::Load(d, side + i));
     store(planes, hn::Zero(d), hn::Zero(d), i, block);

@@ -28,8 +28,10 @@ struct PlaneFrame {
 struct alignas(64) FaceBlock {
   float A[3][kBlockFaces], B[3][kBlockFaces], C[3][kBlockFaces];
   float Aw[kBlockFaces], Bw[kBlockFaces], Cw[kBlockFaces];
-  float sharp[kBlockFaces];             ///< a w not below it is sharp
-  std::uint8_t is_unsure[kBlockFaces];  ///< nothing above holds: the face is nearly edge-on
+  float sharp[kBlockFaces];  ///< a w not below it is sharp
+  /// Faces nearly edge-on, whose side doubles cannot tell; as drawn they cover nothing.
+  std::uint8_t is_unsure[kBlockFaces];
+  bool has_unsure;
 };
 
 /// The same in double for one large face, (u, v) counted from the picture's centre. The bounds hold for runs of at most
@@ -50,11 +52,11 @@ struct FaceSource {
   const float* positions;
 };
 
-/// Up to 16 faces and their boxes.
+/// Up to 16 faces and their boxes. The arrays can be read for kBlockFaces elements, whatever stands there.
 struct FaceBoxes {
   const std::uint32_t* faces;
   const std::int32_t *x0, *x1, *y0, *y1;
-  std::size_t count;  ///< 1..16; the rest of the block repeats the last
+  std::size_t count;  ///< 1..16
 };
 
 /// `first_u`, `first_v`: the centre of sample (0, 0).

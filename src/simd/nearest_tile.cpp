@@ -39,7 +39,6 @@ HWY_INLINE void draw_lanes(const FaceBlock& block, const FaceBoxes& boxes, std::
   std::fill(height, height + kRoom, -1.0f);
   for (std::size_t i = 0; i < hn::Lanes(d) && from + i < boxes.count; ++i) {
     const std::size_t k = from + i;
-    if (block.is_unsure[k]) continue;
     const auto columns = static_cast<std::int32_t>(target.columns);
     first[i] = boxes.y0[k] * columns + boxes.x0[k];
     ids[i] = static_cast<std::int32_t>(boxes.faces[k]);
