@@ -14,7 +14,11 @@ constexpr double kRim = 1 + 0x1p-12;
 // Half the raster's width over its distance is at least this: beyond, doubles would not tell places on it apart.
 constexpr double kNarrowest = 0x1p-26;
 
-// And at least this share of its height, and the other way round: the errors of a thin raster are those of a long one.
+// And at least this many errors of a point: else the filter would have to be told of a great error.
+constexpr double kLeastSteps = 0x1p25;
+
+// And its width at least this share of its height, and the other way round: the errors of a thin raster are those of a
+// long one.
 constexpr double kThinnest = 0x1p-8;
 
 // A corner of the box is in front of the light if its direction is within 82 degrees of the axis.
@@ -46,14 +50,14 @@ struct Range {
 
 }  // namespace
 
-std::optional<simd::ShadowFrame> frame_towards(const Vector& light, const OffsetBox& box) {
+std::optional<simd::ShadowFrame> frame_towards(const Vector& light, const OffsetBox& box, double error) {
   const DVector axis = normalized(0.5 * (box.lower + box.upper));
   if (axis == DVector(0)) return {};
   const DVector aside = std::fabs(axis.y) < 0.9 ? DVector(0, 1, 0) : DVector(1, 0, 0);
   const DVector right = normalized(cross(aside, axis)), up = cross(axis, right);
 
   Range across, along;
-  double farthest = 0;
+  double farthest = 0, nearest = HUGE_VAL;
   for (int k = 0; k < 8; ++k) {
     const DVector corner((k & 1) != 0 ? box.upper.x : box.lower.x, (k & 2) != 0 ? box.upper.y : box.lower.y,
                          (k & 4) != 0 ? box.upper.z : box.lower.z);
@@ -61,12 +65,14 @@ std::optional<simd::ShadowFrame> frame_towards(const Vector& light, const Offset
     const double size = std::max({std::fabs(corner.x), std::fabs(corner.y), std::fabs(corner.z)});
     if (!(depth > kLeastCosine * size * std::sqrt(3.0))) return {};
     farthest = std::max(farthest, depth);
+    nearest = std::min(nearest, depth);
     across.add(dot(corner, right) / depth);
     along.add(dot(corner, up) / depth);
   }
   // (right, up, axis) is right-handed, and what follows adds multiples of the axis and scales by positive numbers.
   const double scale = 1 / farthest;
-  const double widest = std::max(across.half_width(kNarrowest), along.half_width(kNarrowest));
+  const double narrowest = std::max(kNarrowest, error / nearest * kLeastSteps);
+  const double widest = std::max(across.half_width(narrowest), along.half_width(narrowest));
   const double width = across.half_width(kThinnest * widest), height = along.half_width(kThinnest * widest);
   return make_frame(light, (right - across.middle() * axis) * (scale / width),
                     (up - along.middle() * axis) * (scale / height), axis * scale);

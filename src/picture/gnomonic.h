@@ -13,8 +13,9 @@ struct OffsetBox {
   DVector lower, upper;
 };
 
-/// The frame in which the box fills the raster, if the light sees all of it well in front of itself.
-std::optional<simd::ShadowFrame> frame_towards(const Vector& light, const OffsetBox& box);
+/// The frame in which the box fills the raster, if the light sees all of it well in front of itself. `error`: of a
+/// point in the box, world units.
+std::optional<simd::ShadowFrame> frame_towards(const Vector& light, const OffsetBox& box, double error);
 
 /// The frame that looks along axis side / 2, against it if side is odd (0..5), and holds each offset of which that is
 /// the greatest component, up to rounding, as long as it is at most `reach`.

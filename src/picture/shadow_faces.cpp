@@ -142,10 +142,13 @@ void ShadowFaces::test_first(const ShadowRun& run, ShadowPoints& points, std::si
 
   const Mesh& mesh = run.scene.mesh();
   for (std::size_t i = 0; i < whole; ++i) {
-    simd::ShadowCorners& corners = corners_[i / kGroup];
-    for (int k = 0; k < 3; ++k) {
-      const Vector& p = mesh.vertex(queue_.face[i], k);
-      for (int axis = 0; axis < 3; ++axis) corners.of[k][axis][i % kGroup] = p[axis];
+    float(*corners)[3][kGroup] = corners_[i / kGroup].of;
+    const Corners& vertices = mesh.triangles[queue_.face[i]];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector& p = mesh.positions[vertices[k]];
+      corners[k][0][i % kGroup] = p.x;
+      corners[k][1][i % kGroup] = p.y;
+      corners[k][2][i % kGroup] = p.z;
     }
   }
   simd::set_up_planes(run.frame, corners_.data(), groups, run.slack, planes_.data(), sides_.data());

@@ -47,10 +47,11 @@ void ShadowPoints::sort(const simd::PointsToProject& from, std::size_t wanted, s
   make_room(records_, wanted + kPadding);
   make_room(texels_, wanted + kPadding);
   make_room(points_, wanted + kPadding);
-  rest.resize(wanted + kPadding);
-  simd::ProjectedPoints to{records_.data(), texels_.data(), points_.data(), rest.data()};
+  const std::size_t rest_before = rest.size();
+  rest.resize(rest_before + wanted + kPadding);
+  simd::ProjectedPoints to{records_.data(), texels_.data(), points_.data(), rest.data() + rest_before};
   simd::project_points(from, raster_, to);
-  rest.resize(to.rest_count);
+  rest.resize(rest_before + to.rest_count);
   count_ = to.count;
 
   count_texels();

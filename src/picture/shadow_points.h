@@ -13,7 +13,8 @@ namespace facemap {
 /// them. Memory is kept from one light to the next.
 class ShadowPoints {
  public:
-  /// Sorts those of `from`. `rest` becomes the points that have no place on the raster.
+  /// Sorts those of `from`, of which at most `wanted` are asked. Appends to `rest` those that have no place on the
+  /// raster.
   void sort(const simd::PointsToProject& from, std::size_t wanted, std::vector<std::uint32_t>& rest);
 
   std::size_t count() const noexcept { return count_; }

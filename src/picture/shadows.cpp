@@ -69,7 +69,11 @@ class LightPass {
   void run() {
     const simd::WantedPoints wanted = find_wanted();
     if (wanted.count == 0) return;
-    if (scene_.mesh().positions.size() > kMostVertices) return ask_all_singly();
+    parts_.rest.clear();
+    if (scene_.mesh().positions.size() > kMostVertices) {
+      add_all_to_rest();
+      return ask_rest();
+    }
     const auto offset = [&](const std::int32_t* q) { return from_light_ + points_.step * DVector(q[0], q[1], q[2]); };
     const OffsetBox box{offset(wanted.lower), offset(wanted.upper)};
     size_ = 0;
@@ -77,11 +81,12 @@ class LightPass {
       size_ += std::fabs(from_light_[k]) + points_.step * std::max(std::fabs(static_cast<double>(wanted.lower[k])),
                                                                    std::fabs(static_cast<double>(wanted.upper[k])));
     }
-    if (const auto frame = frame_towards(light_, box)) {
+    if (const auto frame = frame_towards(light_, box, points_.error)) {
       run_frame(*frame, 1, wanted.count, nearest_of(*frame, box));
     } else {
       run_sides();
     }
+    ask_rest();
   }
 
   const Counters& counters() const { return counters_; }
@@ -124,7 +129,7 @@ class LightPass {
       sides[side].nearest = std::min(sides[side].nearest, depth);
       farthest = std::max(farthest, depth);
     }
-    if (!(farthest > 0)) return ask_all_singly();
+    if (!(farthest > 0)) return add_all_to_rest();
     for (int side = 0; side < kSides; ++side) {
       if (sides[side].count == 0) continue;
       run_frame(frame_of_side(light_, side, farthest), static_cast<std::uint8_t>(1u << side), sides[side].count,
@@ -136,7 +141,8 @@ class LightPass {
     // A row of unit length sqrt(3) `largest` times the point's own error; the matrix and the offset rounded, three
     // products and three sums: 13 roundings of 2^-53.
     const double error = frame.largest * (2 * points_.error + 0x1p-49 * size_);
-    const double slack = std::clamp(error / nearest * 0x1p24, kLeastSlack, kGreatestSlack);
+    // A little more than the nearest point needs, so that rounding does not leave it out.
+    const double slack = std::clamp(error / nearest * 0x1.01p24, kLeastSlack, kGreatestSlack);
     simd::PointsToProject from{points_.x.data(),
                                points_.y.data(),
                                points_.z.data(),
@@ -161,7 +167,6 @@ class LightPass {
       parts_.faces.run({scene_, light_, frame, slack, skip_entries_, blocks_exactly_}, parts_.points, counters_);
       clear_blocked_places();
     }
-    ask_rest();
   }
 
   void clear_blocked_places() {
@@ -173,12 +178,10 @@ class LightPass {
     }
   }
 
-  void ask_all_singly() {
-    parts_.rest.clear();
+  void add_all_to_rest() {
     for (std::size_t i = 0; i < points_.size(); ++i) {
       if (parts_.wanted[i] != 0) parts_.rest.push_back(static_cast<std::uint32_t>(i));
     }
-    ask_rest();
   }
 
   void ask_rest() {

@@ -119,6 +119,14 @@ HWY_INLINE hn::Vec<DI> texel_of(hn::Vec<DF> coordinate, int count) {
   return hn::ConvertTo(DI(), hn::Min(hn::Max(place, hn::Zero(d)), last));
 }
 
+// Of kRun points.
+HWY_INLINE bool is_any_wanted(const std::uint8_t* wanted, std::uint8_t bit) {
+  std::uint64_t words[kRun / 8], all = 0;
+  std::memcpy(words, wanted, sizeof(words));
+  for (const std::uint64_t word : words) all |= word;
+  return (all & bit * 0x0101010101010101u) != 0;
+}
+
 void project_points(const PointsToProject& from, const ShadowRaster& raster, ProjectedPoints& to) {
   const DF d;
   const DU du;
@@ -126,6 +134,7 @@ void project_points(const PointsToProject& from, const ShadowRaster& raster, Pro
   const auto one = hn::Set(d, 1.0f);
   Run run;
   for (std::size_t first = 0; first < from.count; first += kRun) {
+    if (!is_any_wanted(from.wanted + first, from.bit)) continue;
     transform(from, first, run);
     for (std::size_t i = 0; i < kRun && first + i < from.count; i += lanes) {
       const auto bytes = hn::PromoteTo(du, hn::LoadU(DBytes(), from.wanted + first + i));
