@@ -18,12 +18,12 @@ inline constexpr double kOffsetError = 0x1p-49;
 /// Faces about a camera K.
 struct PlaneBatch {
   std::size_t count = 0;
-  float corners[9][kSeenBatch] = {};  ///< a.x, a.y, a.z, b.x, ...
-  double normal[3][kSeenBatch];       ///< n
-  double spread[3][kSeenBatch];       ///< sum of |products| of each component: n is off by at most 4 u of it
-  double offset[kSeenBatch];          ///< n . (a - K)
-  double offset_error[kSeenBatch];    ///< |offset - true| <= this; if 0, it is exact
-  double slope_error[kSeenBatch];     ///< where |n . d| >= slope_error / e, a ray's point is known to within e
+  float corners[9][kSeenBatch] = {};     ///< a.x, a.y, a.z, b.x, ...
+  double normal[3][kSeenBatch] = {};     ///< n
+  double spread[3][kSeenBatch] = {};     ///< sum of |products| of each component: n is off by at most 4 u of it
+  double offset[kSeenBatch] = {};        ///< n . (a - K)
+  double offset_error[kSeenBatch] = {};  ///< |offset - true| <= this; if 0, it is exact
+  double slope_error[kSeenBatch] = {};   ///< where |n . d| >= slope_error / e, a ray's point is known to within e
 };
 
 /// Fills all but corners.
@@ -40,7 +40,7 @@ struct RayBatch {
   double map_x[kSeenBatch] = {}, map_y[kSeenBatch] = {};  ///< for ray_directions
   std::int64_t slots[kSeenBatch] = {};                    ///< the face's place in a PlaneBatch
   float direction[3][kSeenBatch] = {};
-  double offset[3][kSeenBatch];  ///< of the point P from an origin O
+  double offset[3][kSeenBatch] = {};  ///< of the point P from an origin O
 };
 
 /// Fills rays.offset with base + t d, where base = K - O. Returns whether some point may be off by more than `allowed`

@@ -83,10 +83,15 @@ HWY_INLINE Three cross(const Three& a, const Three& b) {
           hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
 }
 
+// The largest magnitude, as std::max gives it.
+HWY_INLINE V largest_of(const Three& a) {
+  const Three size = magnitude(a);
+  return standard_max(standard_max(size.x, size.y), size.z);
+}
+
 // As normalized() of math/dvector.h; `has_length` where it is not zero.
 HWY_INLINE Three normalized(const Three& a, Mask* has_length) {
-  const Three size = magnitude(a);
-  const V largest = standard_max(standard_max(size.x, size.y), size.z);
+  const V largest = largest_of(a);
   *has_length = hn::Gt(largest, hn::Zero(D()));
   const Three scaled = {hn::Div(a.x, largest), hn::Div(a.y, largest), hn::Div(a.z, largest)};
   const V length = hn::Sqrt(dot(scaled, scaled));

@@ -17,7 +17,7 @@ namespace {
 // Lifted points beyond this (world units) may overflow float32.
 constexpr double kLargestFloat = 0x1p127;
 
-// The larger of 0 and x, 0 for NaN: std::max(0.0, x).
+// std::max(0.0, x) and std::min(0.0, x), NaN included.
 HWY_INLINE V not_below_zero(V x) { return hn::IfThenElseZero(hn::Gt(x, hn::Zero(D())), x); }
 HWY_INLINE V not_above_zero(V x) { return hn::IfThenElseZero(hn::Lt(x, hn::Zero(D())), x); }
 
@@ -44,11 +44,14 @@ HWY_INLINE Three weighted(const Corners& v, const Three& w) {
   return plus(plus(times(v.a, w.x), times(v.b, w.y)), times(v.c, w.z));
 }
 
+HWY_INLINE Three sum_of_normals(const Corners& normals, const Three& w) {
+  return plus(plus(plus(all(0), times(normals.a, w.x)), times(normals.b, w.y)), times(normals.c, w.z));
+}
+
 HWY_INLINE Three smooth_normal(const ShadedFaces& faces, hn::Vec<Places> slots, const Three& w, const Three& flat) {
   const Corners normals = corners_at(faces.normals, slots);
-  const Three sum = plus(plus(plus(all(0), times(normals.a, w.x)), times(normals.b, w.y)), times(normals.c, w.z));
   Mask has_length;
-  const Three unit = normalized(sum, &has_length);
+  const Three unit = normalized(sum_of_normals(normals, w), &has_length);
   const Mask given = hn::Gt(hn::GatherIndex(D(), faces.is_smooth, slots), hn::Zero(D()));
   return chosen(hn::And(has_length, given), unit, flat);
 }
@@ -120,9 +123,7 @@ bool find_lifts(const PlaneBatch& planes, const ShadedFaces& faces, const RayBat
     const V length = hn::Sqrt(dot(shift, shift));
     const V least = hn::Mul(constant(least_lift), hn::GatherIndex(D(), faces.largest, slots));
     // Without a smooth normal there is no lift.
-    const Three sum = plus(plus(plus(all(0), times(normals.a, w.x)), times(normals.b, w.y)), times(normals.c, w.z));
-    const Three size = magnitude(sum);
-    const Mask has_length = hn::Gt(standard_max(standard_max(size.x, size.y), size.z), zero);
+    const Mask has_length = hn::Gt(largest_of(sum_of_normals(normals, w)), zero);
     const Mask given = hn::Gt(hn::GatherIndex(D(), faces.is_smooth, slots), zero);
     const Mask far = hn::And(hn::And(has_length, given), hn::Gt(length, least));
     const Three moved = plus(position, shift);
