@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <system_error>
 
 namespace facemap {
@@ -49,6 +50,14 @@ FileMapping::FileMapping(const std::filesystem::path& path, std::uint64_t max_by
 
 FileMapping::~FileMapping() {
   if (mapped_ != nullptr) ::munmap(mapped_, text_.size());
+}
+
+void FileMapping::release(std::string_view part) const noexcept {
+  constexpr std::uintptr_t kPage = 4096;
+  const auto begin = (reinterpret_cast<std::uintptr_t>(part.data()) + kPage - 1) / kPage * kPage;
+  const auto end = reinterpret_cast<std::uintptr_t>(part.data() + part.size()) / kPage * kPage;
+  // Pages of a file come back from there when they are touched; refusal does no harm.
+  if (mapped_ != nullptr && begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_DONTNEED);
 }
 
 void FileMapping::map(int descriptor, std::uint64_t size, const std::string& name) {

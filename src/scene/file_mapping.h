@@ -20,6 +20,9 @@ class FileMapping {
   /// Valid as long as this object.
   std::string_view text() const noexcept { return text_; }
 
+  /// Gives back the memory of a part of the text that will hardly be read again; it stays valid.
+  void release(std::string_view part) const noexcept;
+
  private:
   void map(int descriptor, std::uint64_t size, const std::string& name);
   void read(int descriptor, std::uint64_t max_bytes, const std::string& name);

@@ -19,7 +19,7 @@ OBJ OBJ::load(const std::filesystem::path& path, const Limits& limits) {
   const std::string name = path.string();
   std::optional<FileMapping> file(std::in_place, path, limits.max_bytes);
   ObjReader reader(file->text(), name, path.has_parent_path() ? path.parent_path() : ".", limits);
-  reader.read();
+  reader.read([&file](std::string_view part) { file->release(part); });
   file.reset();  // before finish() takes memory of its own
   reader.finish();
   return OBJ(std::move(reader));

@@ -71,7 +71,7 @@ void append_corners(std::vector<ObjChunk>& chunks, std::vector<Corners> ObjChunk
 
 }  // namespace
 
-bool ObjChunks::read(std::string_view text, const Executor& executor) {
+bool ObjChunks::read(std::string_view text, const Executor& executor, const Release& release) {
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   std::string tail;
   const std::size_t wanted = text.size() / (8 * static_cast<std::size_t>(executor.threads()));
@@ -83,6 +83,8 @@ bool ObjChunks::read(std::string_view text, const Executor& executor) {
     if (is_odd) return;
     const ObjChunk::Outcome outcome = chunks_[i].read(texts[i], std::nullopt);
     needs_counts[i] = outcome == ObjChunk::Outcome::NeedsCounts;
+    const bool is_tail = i + 1 == texts.size();  // which is not in the text
+    if (release && !is_tail) release(texts[i]);
     if (outcome == ObjChunk::Outcome::Odd) is_odd = true;
   });
   std::vector<std::size_t> again;

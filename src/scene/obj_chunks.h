@@ -20,8 +20,9 @@ class ObjChunks {
   static constexpr std::size_t kLeastBytes = std::size_t{1} << 18;
 
   /// False if there is anything odd in the text (see ObjChunk): nothing is kept then. The text is not needed
-  /// afterwards.
-  bool read(std::string_view text, const Executor& executor);
+  /// afterwards; parts of it that are done with are told to `release`, by several threads.
+  using Release = std::function<void(std::string_view)>;
+  bool read(std::string_view text, const Executor& executor, const Release& release = {});
 
   std::size_t triangle_count() const { return end_.triangle; }
   std::int64_t polygon_count() const { return end_.polygon; }

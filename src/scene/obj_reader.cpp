@@ -50,8 +50,8 @@ ObjReader::ObjReader(std::string_view text, std::string name, const std::filesys
       mtl_(directory, limits.max_bytes),
       faces_(mesh, warnings_) {}
 
-void ObjReader::read() {
-  if (read_in_chunks()) return;
+void ObjReader::read(const ObjChunks::Release& release) {
+  if (read_in_chunks(release)) return;
   check_encoding(text_, name_);
   const ObjSizes sizes = estimate_sizes(text_);
   reserve_pages(mesh.positions, sizes.vertices);
@@ -65,11 +65,12 @@ void ObjReader::read() {
 }
 
 /// False if the text is too short for it, or odd in some way: read() then says in which.
-bool ObjReader::read_in_chunks() {
+bool ObjReader::read_in_chunks(const ObjChunks::Release& release) {
   if (limits_.threads == 1 || text_.size() < ObjChunks::kLeastBytes) return false;
   if (is_utf_16(text_) || text_.find('\n') == std::string_view::npos) return false;
   executor_.emplace(limits_.threads);
-  if (executor_->threads() > 1 && chunks_.read(text_, *executor_) && chunks_.triangle_count() <= limits_.max_faces) {
+  if (executor_->threads() > 1 && chunks_.read(text_, *executor_, release) &&
+      chunks_.triangle_count() <= limits_.max_faces) {
     return true;
   }
   chunks_ = ObjChunks();

@@ -26,8 +26,9 @@ class ObjReader {
  public:
   ObjReader(std::string_view text, std::string name, const std::filesystem::path& directory, const OBJ::Limits& limits);
 
-  /// Reads all statements; the text is not needed any more. Throws LoadError, as does finish().
-  void read();
+  /// Reads all statements; the text is not needed any more, and parts of it are told to `release` as they are done
+  /// with, by several threads. Throws LoadError, as does finish().
+  void read(const ObjChunks::Release& release = {});
 
   /// Checks what only the whole file can show and completes the members below.
   void finish();
@@ -48,7 +49,7 @@ class ObjReader {
     std::vector<ForwardIndex> forward;
   };
 
-  bool read_in_chunks();
+  bool read_in_chunks(const ObjChunks::Release& release);
   void merge_chunks();
   void read_statement();
   void read_other_statement(const char* at);
