@@ -1,4 +1,5 @@
-// Finding which points of a picture each light reaches: 1024 x 1024 samples, eight lights, one thread.
+// Finding which points of a picture each light reaches: 1024 x 1024 samples, eight lights, one thread; and the kernels
+// that do it.
 
 #include "picture/shadows.h"
 
@@ -6,6 +7,7 @@
 #include <facemap/camera.h>
 #include <facemap/generators.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <string>
@@ -15,8 +17,12 @@
 #include "map/face_planes.h"
 #include "math/elementary.h"
 #include "math/exact_sign.h"
+#include "picture/gnomonic.h"
 #include "picture/nearest_faces.h"
 #include "picture/seen_points.h"
+#include "picture/shadow_faces.h"
+#include "picture/shadow_points.h"
+#include "simd/shadow_planes.h"
 
 namespace {
 
@@ -94,6 +100,141 @@ void clear_all(benchmark::State& state, const std::string& name, int detail, boo
   state.counters["lit"] = per_light(points * state.iterations() * picture.lights.size() - blocked);
 }
 
+// ---- kernels, on the chessboard and its first light
+
+struct Kernels {
+  Kernels() : picture(picture_of("chessboard", 1)), points(picture.seen.points), light(picture.lights[0]) {
+    const Scene& scene = picture.scene;
+    const DVector to_light(light);
+    frame = *frame_towards(light, {DVector(scene.lower()) - to_light, DVector(scene.upper()) - to_light}, points.error);
+    wanted.assign(points.size() + 64, 0);
+    std::fill_n(wanted.begin(), points.size(), std::uint8_t{1});
+    from = {points.x.data(),
+            points.y.data(),
+            points.z.data(),
+            points.faces.data(),
+            wanted.data(),
+            1,
+            points.size(),
+            {},
+            {},
+            0};
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        from.matrix[i][k] = frame.rows[i][k] * points.step;
+        from.offset[i] += frame.rows[i][k] * (points.origin - to_light)[k];
+      }
+    }
+    std::vector<std::uint32_t> rest;
+    sorted.sort(from, points.size(), scene.face_count(), rest);
+    places.resize(3 * (scene.mesh().positions.size() + 16));
+    project();
+    corners.resize(simd::kShadowFaces / 16);
+    for (std::size_t f = 0; f < simd::kShadowFaces; ++f) {
+      for (int k = 0; k < 3; ++k) {
+        for (int axis = 0; axis < 3; ++axis) corners[f / 16].of[k][axis][f % 16] = scene.mesh().vertex(f, k)[axis];
+      }
+    }
+  }
+
+  void project() {
+    const std::vector<Vector>& positions = picture.scene.mesh().positions;
+    simd::project_vertices(frame, &positions[0].x, positions.size(), places.data());
+  }
+
+  void sift(std::size_t first) {
+    const Mesh& mesh = picture.scene.mesh();
+    sifted.count = 0;
+    simd::sift_faces({mesh.triangles[0].data(), places.data(), nullptr, first,
+                      std::min(first + simd::kShadowFaces, mesh.face_count()), sorted.raster(), &sorted.farthest(),
+                      sorted.occupied()},
+                     sifted);
+  }
+
+  const Picture& picture;
+  const AskedPoints& points;
+  const Vector light;
+  simd::ShadowFrame frame;
+  std::vector<std::uint8_t> wanted;
+  simd::PointsToProject from;
+  ShadowPoints sorted;
+  std::vector<float> places;
+  simd::SiftedFaces sifted;
+  std::vector<simd::ShadowCorners> corners;
+};
+
+void measure_wanted(benchmark::State& state) {
+  const Kernels k;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        simd::measure_wanted(k.from.x, k.from.y, k.from.z, k.wanted.data(), k.points.size()).count);
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(k.points.size()));
+}
+
+void project_points(benchmark::State& state) {
+  const Kernels k;
+  const std::size_t room = k.points.size() + 64;
+  std::vector<simd::ShadowRecord> records(room);
+  std::vector<std::uint32_t> texels(room), points(room), rest(room);
+  for (auto _ : state) {
+    simd::ProjectedPoints to{records.data(), texels.data(), points.data(), nullptr, rest.data()};
+    simd::project_points(k.from, k.sorted.raster(), to);
+    benchmark::DoNotOptimize(to.count);
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(k.points.size()));
+}
+
+void sort_points(benchmark::State& state) {
+  Kernels k;
+  std::vector<std::uint32_t> rest;
+  for (auto _ : state) k.sorted.sort(k.from, k.points.size(), k.picture.scene.face_count(), rest);
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(k.points.size()));
+}
+
+void project_vertices(benchmark::State& state) {
+  Kernels k;
+  for (auto _ : state) k.project();
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(k.picture.scene.mesh().positions.size()));
+}
+
+void sift_faces(benchmark::State& state) {
+  Kernels k;
+  const std::size_t faces = k.picture.scene.face_count();
+  for (auto _ : state) {
+    for (std::size_t first = 0; first < faces; first += simd::kShadowFaces) k.sift(first);
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(faces));
+}
+
+void set_up_planes(benchmark::State& state) {
+  const Kernels k;
+  std::vector<simd::ShadowPlanes> planes(k.corners.size());
+  std::vector<std::int8_t> sides(simd::kShadowFaces);
+  for (auto _ : state) {
+    simd::set_up_planes(k.frame, k.corners.data(), k.corners.size(), 1, planes.data(), sides.data());
+    benchmark::DoNotOptimize(sides.data());
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(sides.size()));
+}
+
+// From vertices to marked points; items are blocks of sixteen points held against a face.
+void all_faces(benchmark::State& state) {
+  Kernels k;
+  const Scene& scene = k.picture.scene;
+  ShadowFaces faces;
+  Counters counters;
+  const auto never = [](std::size_t, std::uint32_t, int) { return false; };
+  std::vector<std::uint32_t> rest;
+  for (auto _ : state) {
+    state.PauseTiming();
+    k.sorted.sort(k.from, k.points.size(), scene.face_count(), rest);
+    state.ResumeTiming();
+    faces.run({scene, k.light, k.frame, 1, nullptr, never}, k.sorted, counters);
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(counters.by_float / 16));
+}
+
 void add(const std::string& name, int detail) {
   for (const bool skip : {false, true}) {
     benchmark::RegisterBenchmark((name + std::to_string(detail) + (skip ? "/exits" : "/all")).c_str(),
@@ -107,6 +248,13 @@ void add(const std::string& name, int detail) {
 int main(int argc, char** argv) {
   for (const std::string& name : generator_names()) add(name, 1);
   add("chessboard", 4);
+  benchmark::RegisterBenchmark("measure_wanted", measure_wanted)->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("project_points", project_points)->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("sort_points", sort_points)->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("project_vertices", project_vertices)->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("sift_faces", sift_faces)->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("set_up_planes", set_up_planes)->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("all_faces", all_faces)->Unit(benchmark::kMillisecond);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }

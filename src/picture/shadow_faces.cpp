@@ -80,9 +80,9 @@ void ShadowFaces::run(const ShadowRun& run, ShadowPoints& points, Counters& coun
   undecided_.clear();
   for (std::size_t first = 0; first < mesh.face_count(); first += kShadowFaces) {
     const std::size_t last = std::min(first + kShadowFaces, mesh.face_count()), waiting = queue_.count;
-    simd::sift_faces(
-        {mesh.triangles[0].data(), places_.data(), run.skip_entries, first, last, points.raster(), &points.farthest()},
-        queue_);
+    simd::sift_faces({mesh.triangles[0].data(), places_.data(), run.skip_entries, first, last, points.raster(),
+                      &points.farthest(), points.occupied()},
+                     queue_);
     queue_across(run, points.raster());
     if (has_odd_faces) drop_odd_faces(run.scene, waiting);
     test_first(run, points, queue_.count / kGroup * kGroup, counters);

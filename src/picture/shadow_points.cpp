@@ -16,6 +16,9 @@ constexpr std::size_t kPadding = 64;
 constexpr int kMostColumns = 1024;
 constexpr int kMostRows = 512;
 
+// Spots are worth marking where there are this many faces a point: most faces then have no point in their box.
+constexpr std::size_t kFacesPerPointForSpots = 2;
+
 template <class T>
 void make_room(std::vector<T>& v, std::size_t count) {
   if (v.size() < count) v.resize(count);
@@ -42,14 +45,18 @@ simd::ShadowRaster raster_for(std::size_t points) {
 
 }  // namespace
 
-void ShadowPoints::sort(const simd::PointsToProject& from, std::size_t wanted, std::vector<std::uint32_t>& rest) {
+void ShadowPoints::sort(const simd::PointsToProject& from, std::size_t wanted, std::size_t faces,
+                        std::vector<std::uint32_t>& rest) {
   raster_ = raster_for(wanted);
   make_room(records_, wanted + kPadding);
   make_room(texels_, wanted + kPadding);
   make_room(points_, wanted + kPadding);
+  has_spots_ = faces > kFacesPerPointForSpots * wanted;
+  if (has_spots_) make_room(spots_, wanted + kPadding);
   const std::size_t rest_before = rest.size();
   rest.resize(rest_before + wanted + kPadding);
-  simd::ProjectedPoints to{records_.data(), texels_.data(), points_.data(), rest.data() + rest_before};
+  simd::ProjectedPoints to{records_.data(), texels_.data(), points_.data(), has_spots_ ? spots_.data() : nullptr,
+                           rest.data() + rest_before};
   simd::project_points(from, raster_, to);
   rest.resize(rest_before + to.rest_count);
   count_ = to.count;
@@ -57,6 +64,15 @@ void ShadowPoints::sort(const simd::PointsToProject& from, std::size_t wanted, s
   count_texels();
   fill_blocks();
   build_pyramid();
+  if (has_spots_) mark_spots();
+}
+
+void ShadowPoints::mark_spots() {
+  occupied_.assign(texel_count() * simd::kSpotColumns * simd::kSpotRows / 8 + kPadding, 0);
+  std::uint8_t* occupied = occupied_.data();
+  for (std::size_t i = 0; i < count_; ++i) {
+    occupied[spots_[i] / 8] = static_cast<std::uint8_t>(occupied[spots_[i] / 8] | 1u << (spots_[i] % 8));
+  }
 }
 
 void ShadowPoints::count_texels() {
@@ -156,7 +172,8 @@ simd::SortedPoints ShadowPoints::sorted() noexcept {
 
 std::size_t ShadowPoints::memory_bytes() const noexcept {
   return bytes_of(records_) + bytes_of(texels_) + bytes_of(points_) + bytes_of(point_of_place_) + bytes_of(begins_) +
-         bytes_of(blocks_) + bytes_of(farthest_of_block_) + bytes_of(blocked_) + bytes_of(cells_);
+         bytes_of(blocks_) + bytes_of(farthest_of_block_) + bytes_of(blocked_) + bytes_of(cells_) + bytes_of(spots_) +
+         bytes_of(occupied_);
 }
 
 }  // namespace facemap

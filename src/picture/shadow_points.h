@@ -14,11 +14,13 @@ namespace facemap {
 class ShadowPoints {
  public:
   /// Sorts those of `from`, of which at most `wanted` are asked. Appends to `rest` those that have no place on the
-  /// raster.
-  void sort(const simd::PointsToProject& from, std::size_t wanted, std::vector<std::uint32_t>& rest);
+  /// raster. `faces`: how many are to be held against them.
+  void sort(const simd::PointsToProject& from, std::size_t wanted, std::size_t faces, std::vector<std::uint32_t>& rest);
 
   std::size_t count() const noexcept { return count_; }
   simd::ShadowRaster raster() const noexcept { return raster_; }
+  /// As FacesToSift::occupied.
+  const std::uint8_t* occupied() const noexcept { return has_spots_ ? occupied_.data() : nullptr; }
   const simd::FarthestPyramid& farthest() const noexcept { return pyramid_; }
   simd::SortedPoints sorted() noexcept;
 
@@ -41,6 +43,7 @@ class ShadowPoints {
   }
   void count_texels();
   void fill_blocks();
+  void mark_spots();
   void build_pyramid();
 
   simd::ShadowRaster raster_;
@@ -55,6 +58,9 @@ class ShadowPoints {
   std::vector<float> farthest_of_block_;
   std::vector<std::uint16_t> blocked_;
   std::vector<float> cells_;
+  bool has_spots_ = false;
+  std::vector<std::uint32_t> spots_;
+  std::vector<std::uint8_t> occupied_;
   simd::FarthestPyramid pyramid_{};
 };
 

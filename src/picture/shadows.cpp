@@ -162,7 +162,7 @@ class LightPass {
     }
     from.nearest = static_cast<float>(std::max(error * 0x1p24 / slack, kLeastZ) * (1 + 0x1p-20));
 
-    parts_.points.sort(from, wanted, parts_.rest);
+    parts_.points.sort(from, wanted, scene_.face_count(), parts_.rest);
     if (parts_.points.count() > 0) {
       parts_.faces.run({scene_, light_, frame, slack, skip_entries_, blocks_exactly_}, parts_.points, counters_);
       clear_blocked_places();

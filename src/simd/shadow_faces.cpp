@@ -130,6 +130,42 @@ HWY_INLINE Mask is_entry(const Places& a, const Places& b, const Places& c) {
   return hn::And(hn::Lt(area, hn::Neg(bound)), hn::Le(reach, hn::Set(d, 4.0f)));
 }
 
+struct Box {
+  VF u0, u1, v0, v1;
+};
+
+// Whether a box, of few spots, has none with a point in it. Lanes without a box are not to be asked.
+HWY_INLINE Mask is_empty(const FacesToSift& from, const Box& box, Mask has_box) {
+  constexpr int kMostColumns = 24, kMostRows = 8;  // a row of bits, begun anywhere in a byte, fits 32
+  const DI di;
+  const DF d;
+  const int columns = from.raster.columns * kSpotColumns, rows = from.raster.rows * kSpotRows;
+  const auto has = hn::RebindMask(di, has_box);
+  const auto x0 = hn::IfThenElseZero(has, texel_of(box.u0, columns)),
+             y0 = hn::IfThenElseZero(has, texel_of(box.v0, rows));
+  const auto x1 = hn::IfThenElseZero(has, texel_of(box.u1, columns)),
+             y1 = hn::IfThenElseZero(has, texel_of(box.v1, rows));
+  const auto width = hn::Sub(x1, x0), height = hn::Sub(y1, y0);
+  const auto is_small =
+      hn::And(has, hn::And(hn::Lt(width, hn::Set(di, kMostColumns)), hn::Lt(height, hn::Set(di, kMostRows))));
+  if (hn::AllFalse(di, is_small)) return hn::RebindMask(d, is_small);
+
+  const auto one = hn::Set(di, 1);
+  const auto run = hn::Sub(hn::Shl(hn::Set(di, 2), hn::Min(width, hn::Set(di, kMostColumns - 1))), one);
+  const auto bits = hn::Shl(run, hn::And(x0, hn::Set(di, 7)));
+  const auto* words = reinterpret_cast<const std::int32_t*>(from.occupied);
+  auto at = hn::Add(hn::Mul(y0, hn::Set(di, columns / 8)), hn::ShiftRight<3>(x0));
+  auto found = hn::Zero(di);
+  for (auto left = hn::IfThenElse(is_small, height, hn::Set(di, -1));; left = hn::Sub(left, one)) {
+    const auto is_in = hn::Gt(left, hn::Set(di, -1));
+    if (hn::AllFalse(di, is_in)) break;
+    found = hn::Or(
+        found, hn::And(bits, hn::IfThenElseZero(is_in, hn::GatherOffset(di, words, hn::IfThenElseZero(is_in, at)))));
+    at = hn::Add(at, hn::Set(di, columns / 8));
+  }
+  return hn::RebindMask(d, hn::And(is_small, hn::Eq(found, hn::Zero(di))));
+}
+
 HWY_INLINE void sift_some(const FacesToSift& from, std::size_t first, const std::uint32_t* corners,
                           const std::uint8_t* skip, std::size_t count, SiftedFaces& to) {
   const DF d;
@@ -164,6 +200,10 @@ HWY_INLINE void sift_some(const FacesToSift& from, std::size_t first, const std:
     if (hn::AllFalse(d, is_left)) return;
   }
 
+  if (from.occupied != nullptr) {
+    is_left = hn::AndNot(is_empty(from, {u0, u1, v0, v1}, is_left), is_left);
+    if (hn::AllFalse(d, is_left)) return;
+  }
   const auto has_box = hn::RebindMask(di, is_left);  // the others may be NaN, which is no index
   const auto x0 = hn::IfThenElseZero(has_box, texel_of(u0, from.raster.columns));
   const auto x1 = hn::IfThenElseZero(has_box, texel_of(u1, from.raster.columns));

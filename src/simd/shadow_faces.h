@@ -32,6 +32,7 @@ struct FacesToSift {
   std::size_t first, last;           ///< faces to look at; at most kShadowFaces
   ShadowRaster raster;
   const FarthestPyramid* farthest;
+  const std::uint8_t* occupied;  ///< one bit a spot, rows of whole bytes, readable for 4 bytes more; or null
 };
 
 inline constexpr std::size_t kShadowFaces = 1024;

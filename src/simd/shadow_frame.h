@@ -22,6 +22,11 @@ struct ShadowRaster {
   int rows = 1;
 };
 
+/// Each texel is cut into this many columns and rows of spots where faces far outnumber points: whether a spot has a
+/// point is one bit.
+inline constexpr int kSpotColumns = 4;
+inline constexpr int kSpotRows = 8;
+
 /// Half a unit in the last place, relative: what one float32 operation may be off.
 inline constexpr double kShadowHalfUlp = 0x1p-24;
 

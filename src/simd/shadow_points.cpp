@@ -155,6 +155,12 @@ void project_points(const PointsToProject& from, const ShadowRaster& raster, Pro
 
       const auto column = texel_of(u, raster.columns), row = texel_of(v, raster.rows);
       const auto texel = hn::Add(hn::Mul(row, hn::Set(DI(), raster.columns)), column);
+      if (to.spots != nullptr) {
+        const auto spot_column = texel_of(u, raster.columns * kSpotColumns);
+        const auto spot_row = texel_of(v, raster.rows * kSpotRows);
+        const auto spot = hn::Add(hn::Mul(spot_row, hn::Set(DI(), raster.columns * kSpotColumns)), spot_column);
+        hn::CompressStore(hn::BitCast(du, spot), is_on, du, to.spots + to.count);
+      }
       const auto own_face = hn::BitCast(d, hn::Load(du, run.own_face + i));
       if (hn::AllTrue(du, is_on)) {
         hn::StoreInterleaved4(u, v, w, own_face, d, &to.records[to.count].u);

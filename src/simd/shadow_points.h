@@ -51,6 +51,7 @@ struct ProjectedPoints {
   ShadowRecord* records;
   std::uint32_t* texels;  ///< row * columns + column
   std::uint32_t* points;  ///< which of the asked points
+  std::uint32_t* spots;   ///< as texels, of the finer raster; null: not wanted
   std::uint32_t* rest;    ///< numbers of the points that are too near or not on the raster
   std::size_t count = 0;
   std::size_t rest_count = 0;
