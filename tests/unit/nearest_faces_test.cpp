@@ -138,4 +138,74 @@ TEST(NearestFaces, OfFisheyesAreThoseOfTheCamera) {
   }
 }
 
+// A face whose corners lie on samples' centres, up to rounding, and its neighbours: the view is along an axis.
+TEST(NearestFaces, WithVerticesOnSamplesAreThoseOfTheCamera) {
+  Random random(20260003);
+  for (const int size : {1, 2, 7, 16, 33}) {
+    Mesh mesh;
+    for (int i = 0; i < 60; ++i) {
+      // Half samples at distance 2 of a view of 90 degrees.
+      const auto corner = [&] {
+        const double x = random.between(-2 * size, 2 * size) * 0.5 + 0.5 * (size % 2 == 0);
+        const double y = random.between(-2 * size, 2 * size) * 0.5 + 0.5 * (size % 2 == 0);
+        const double depth = random.chance(0.5) ? 2 : 1 + random.between(0, 2);
+        return Vector(x * 2 / size * depth, y * 2 / size * depth, -depth);
+      };
+      const Vector a = corner(), b = corner(), c = corner();
+      test_scenes::add_triangle(mesh, a, b, c);
+    }
+    const SpaceVector frame = SpaceVector::looking_along(Vector(0), DVector(0, 0, -1));
+    expect_as_asked(mesh, plane_grid(frame, 90, size, size), "plane " + std::to_string(size));
+    expect_as_asked(mesh, surface_grid(frame, 90, size, size), "surface " + std::to_string(size));
+    if (HasFatalFailure()) return;
+  }
+}
+
+// More than one contest a sample, in the plane of others and in one that is almost the same.
+TEST(NearestFaces, OfSheetsUponEachOtherAreThoseOfTheCamera) {
+  Mesh mesh;
+  for (int i = 0; i < 4; ++i) {
+    const auto shift = static_cast<float>(i) * 0.125f, lift = i == 3 ? 0x1p-24f : 0.0f;
+    test_scenes::add_triangle(mesh, Vector(-3 + shift, 0.5f, -3), Vector(3 + shift, 0.5f, -3.5f),
+                              Vector(shift, 0.5f + lift, 4));
+  }
+  test_scenes::add_triangle(mesh, Vector(0, 0.5f, 5), Vector(3, 0.5f, -2),
+                            Vector(-3, 0.5f, -2));  // turned the other way
+  const SpaceVector frame = SpaceVector::looking_at(Vector(0.25f, 1.5f, 0.5f), Vector(0), Vector(0, 0, 1));
+  expect_as_asked(mesh, plane_grid(frame, 80, 67, 45), "plane");
+  expect_as_asked(mesh, surface_grid(frame, 80, 67, 45), "surface");
+}
+
+TEST(NearestFaces, FromInsideABoxAreItsWalls) {
+  Random random(20260004);
+  const Mesh mesh = test_scenes::box(Vector(-1, -2, -3), Vector(3, 2, 1));
+  const Scene scene(mesh);
+  for (int i = 0; i < 20; ++i) {
+    const DVector at = random.in_cube();
+    const SpaceVector frame = SpaceVector::looking_along(Vector(at * 0.9), random.direction());
+    const double degrees = random.between(1.0, 179.0);
+    expect_as_asked(mesh, plane_grid(frame, degrees, 31, 40), "plane " + std::to_string(degrees));
+    expect_as_asked(mesh, surface_grid(frame, 2 * degrees, 40, 31), "surface " + std::to_string(2 * degrees));
+    if (HasFatalFailure()) return;
+    const NearestFaces nearest = find_nearest_faces(scene, surface_grid(frame, 360, 24, 24), Executor(1));
+    for (int row = 0; row < 24; ++row) {
+      for (int column = 0; column < 24; ++column) {
+        const SampleGrid grid = surface_grid(frame, 360, 24, 24);
+        const bool has_direction = grid.direction(column, row) != Vector(0);
+        ASSERT_EQ(nearest.faces[static_cast<std::size_t>(row * 24 + column)] != facemap::kNoFace, has_direction);
+      }
+    }
+  }
+}
+
+// Pictures over many blocks, tiles and bands, with faces of all sizes.
+TEST(NearestFaces, OfLargePicturesAreThoseOfTheCamera) {
+  Random random(20260005);
+  const test_scenes::TestScene scene = test_scenes::make_scene(test_scenes::Kind::Soup, 4000, random);
+  const SpaceVector frame = looking(Vector(0.1f, 0.3f, 2.5f), Vector(0));
+  expect_as_asked(scene.mesh, plane_grid(frame, 60, 301, 203), "plane");
+  expect_as_asked(scene.mesh, surface_grid(frame, 200, 203, 301), "surface");
+  expect_as_asked(scene.mesh, plane_grid(looking(Vector(0), Vector(1, 0, 0)), 100, 120, 90, 3), "plane, inside");
+}
+
 }  // namespace
