@@ -3,6 +3,7 @@
 #include <facemap/error.h>
 #include <gmpxx.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -216,10 +217,17 @@ bool blocks(const Triangle& G, int s_G, const Vector& L, const GivenPoint& point
 }
 
 bool reaches_beyond(const Triangle& F, const Triangle& G, int s_G, Counters* counters) {
-  for (const Vector& corner : F) {
-    if (s_G * side(G, corner, counters) < 0) return true;
-  }
-  return false;
+  const Verdict in_double = plain::reaches_beyond(F, G, s_G);
+  count(in_double != Verdict::Unknown, counters);
+  if (in_double != Verdict::Unknown) return in_double == Verdict::Yes;
+  ExponentRange lengths = ExponentRange::of(F[0], F[1], F[2]);
+  for (const Vector& corner : G) lengths.include(corner);
+  return in_integers(lengths, ExponentRange(), [&](const auto& numbers) {
+    const auto n = normal(numbers, G);
+    return std::any_of(F.begin(), F.end(), [&](const Vector& corner) {
+      return s_G * determinant(numbers, G, n, corner).sign() < 0;  // the other side than the light's
+    });
+  });
 }
 
 Tracked ray_parameter(const TruePoint& point) {

@@ -211,6 +211,21 @@ Verdict blocks(const Triangle& G, int s_G, const Vector& L, const GivenPoint& po
   return sign == 1 ? verdict : Verdict::Unknown;
 }
 
+// As side, for each corner.
+Verdict reaches_beyond(const Triangle& F, const Triangle& G, int s_G) {
+  const Edges edges(G);
+  const Vec n = edges.normal();
+  const double size = bound(8, 6) * edges.size * edges.size;
+  Verdict verdict = Verdict::No;
+  for (const Vector& corner : F) {
+    const Vec to_plane = kNumbers.difference(G[0], corner);
+    const int sign = sign_of(s_G * dot(n, to_plane), size * largest(to_plane));
+    if (sign == -1) return Verdict::Yes;
+    if (sign == kUnknownSign) verdict = Verdict::Unknown;
+  }
+  return verdict;
+}
+
 // delta and w: 6 monomials each, 8 and 7 roundings.
 Tracked ray_parameter(const TruePoint& point) {
   const Edges edges(point.face);

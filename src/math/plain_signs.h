@@ -20,6 +20,8 @@ int depth_difference(const Triangle& face1, const Triangle& face2, const Vector&
 Verdict blocks(const Triangle& G, int s_G, const Vector& L, const TruePoint& point);
 Verdict blocks(const Triangle& G, int s_G, const Vector& L, const GivenPoint& point);
 
+Verdict reaches_beyond(const Triangle& F, const Triangle& G, int s_G);
+
 /// As facemap::ray_parameter, of the same value, with a larger bound of its error.
 Tracked ray_parameter(const TruePoint& point);
 
