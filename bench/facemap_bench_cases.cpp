@@ -5,11 +5,12 @@
 #include <facemap/turntable.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <utility>
+
+#include "facemap_bench_clock.h"
 
 namespace facemap::bench {
 namespace {
@@ -111,9 +112,9 @@ std::vector<std::string> default_case_names() {
 Case make_case(const std::string& name, const Options& options) {
   Model model = make_model(name);
   model.mesh.positions.reserve(model.mesh.positions.size() + 2);  // Embree reads 16 bytes of the last one
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch(options.cpu_time ? Time::Process : Time::Wall);
   Scene scene(std::move(model.mesh), {}, options.threads);
-  const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  const double ms = watch.milliseconds();
 
   View view = model.view;
   view.projection = options.projection;

@@ -10,19 +10,13 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <limits>
 
+#include "facemap_bench_clock.h"
 #include "facemap_bench_packets.h"
 
 namespace facemap::bench {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double ms_between(Clock::time_point from, Clock::time_point to) {
-  return std::chrono::duration<double, std::milli>(to - from).count();
-}
 
 /// Flush-to-zero and denormals-are-zero, as Embree asks.
 class FlushToZero {
@@ -56,8 +50,8 @@ struct Embree::Handles {
   std::unique_ptr<tbb::task_arena> arena;
 };
 
-Embree::Embree(const Scene& scene, int threads)
-    : handles_(std::make_unique<Handles>()), scene_(&scene), threads_(threads) {
+Embree::Embree(const Scene& scene, int threads, bool cpu_time)
+    : handles_(std::make_unique<Handles>()), scene_(&scene), threads_(threads), cpu_time_(cpu_time) {
   const std::string set = instruction_set();
   width_ = set == "avx512" ? 16 : set == "avx2" ? 8 : 4;
   const std::string isa = set == "avx512" ? ""
@@ -95,7 +89,7 @@ std::int64_t Embree::bytes() const { return handles_->bytes; }
 double Embree::build(bool low_quality, bool robust) {
   drop();
   const FlushToZero mode;
-  const auto start = Clock::now();
+  const Stopwatch watch(cpu_time_ ? Time::Process : Time::Wall);
   const Mesh& mesh = scene_->mesh();
   const std::vector<Corners>& triangles = kept_.empty() ? mesh.triangles : kept_;
   handles_->scene = rtcNewScene(handles_->device);
@@ -110,31 +104,41 @@ double Embree::build(bool low_quality, bool robust) {
   rtcAttachGeometry(handles_->scene, geometry);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(handles_->scene);
-  return ms_between(start, Clock::now());
+  return watch.milliseconds();
 }
 
 Phases Embree::trace(const Rays& rays, const std::vector<Light>& lights, const EmbreeWay& way, Answer& answer) const {
   const std::uint32_t* face_of = kept_.empty() ? nullptr : scene_->kept_faces().data();
-  std::atomic<std::int64_t> camera_ns{0}, shade_ns{0};
-  const auto start = Clock::now();
+  std::atomic<double> camera_ms{0}, shade_ms{0};
+  const Stopwatch watch(cpu_time_ ? Time::Process : Time::Wall);
   const auto trace_tile = [&](int number) {
     const FlushToZero mode;
     static thread_local TileTracer tracer;
-    const auto begin = Clock::now();
+    const Stopwatch tile_watch(cpu_time_ ? Time::Thread : Time::Wall);
     tracer.see(handles_->scene, rays, number, way, width_, face_of, answer);
-    const auto seen = Clock::now();
+    const double seen_ms = tile_watch.milliseconds();
     tracer.ask_lights(handles_->scene, lights, way, width_, answer.light_bytes());
     tracer.write_lights(answer);
-    camera_ns += (seen - begin).count();
-    shade_ns += (Clock::now() - seen).count();
+    camera_ms.fetch_add(seen_ms);
+    shade_ms.fetch_add(tile_watch.milliseconds() - seen_ms);
   };
   if (threads_ == 1) {
     for (int t = 0; t < rays.tile_count(); ++t) trace_tile(t);
   } else {
     handles_->arena->execute([&] { tbb::parallel_for(0, rays.tile_count(), trace_tile); });
   }
-  const double to_ms = 1e-6 / threads_;
-  return {double(camera_ns) * to_ms, 0, double(shade_ns) * to_ms, ms_between(start, Clock::now())};
+  return {camera_ms / threads_, 0, shade_ms / threads_, watch.milliseconds()};
+}
+
+FaceId Embree::first_face(const Vector& from, const Vector& way) const {
+  RTCRayHit query{};
+  query.ray = {from.x, from.y, from.z, 0, way.x, way.y, way.z, 0, 1 - kShort, 0xffffffffu, 0, 0};
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(handles_->scene, &context, &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return kNoFace;
+  return static_cast<FaceId>(kept_.empty() ? query.hit.primID : scene_->kept_faces()[query.hit.primID]);
 }
 
 Opponents calibrate(Embree& embree, const Rays& rays, const std::vector<Light>& lights) {

@@ -31,7 +31,8 @@ struct EmbreeWay {
 class Embree {
  public:
   /// The packets' width: 16, or what FACEMAP_TARGET leaves (8 for avx2, 4 below); Embree is held to that set too.
-  Embree(const Scene& scene, int threads);
+  /// `cpu_time`: phases are timed by what the threads compute, not by the wall clock.
+  Embree(const Scene& scene, int threads, bool cpu_time);
   ~Embree();
 
   int packet_width() const noexcept { return width_; }
@@ -45,6 +46,9 @@ class Embree {
   /// Bytes that Embree says it holds.
   std::int64_t bytes() const;
 
+  /// The first face that a ray from `from` meets short of `from` + `way`; kNoFace: none.
+  FaceId first_face(const Vector& from, const Vector& way) const;
+
   /// Fills `answer`; `build` of the phases is left 0.
   Phases trace(const Rays& rays, const std::vector<Light>& lights, const EmbreeWay& way, Answer& answer) const;
 
@@ -55,6 +59,7 @@ class Embree {
   std::vector<Corners> kept_;  ///< empty if all faces are kept
   int threads_;
   int width_;
+  bool cpu_time_;
 };
 
 /// The fastest ways of a scene, each phase measured by itself.

@@ -32,6 +32,8 @@ Options read_options(int argc, char** argv) {
           std::map<std::string, Renderer::Strategy>{{"auto", Renderer::Strategy::Auto},
                                                     {"lists", Renderer::Strategy::Lists},
                                                     {"transposed", Renderer::Strategy::Transposed}}));
+  parser.add_flag("--cpu-time", options.cpu_time,
+                  "processor time instead of the wall clock's (one thread, busy machine)");
   try {
     parser.parse(argc, argv);
   } catch (const CLI::ParseError& stop) {

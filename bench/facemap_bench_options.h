@@ -18,8 +18,9 @@ struct Options {
   int repeat = 7;  ///< interleaved rounds of each kind
   ProjectionKind projection = ProjectionKind::Plane;
   Renderer::Strategy strategy = Renderer::Strategy::Auto;
-  bool confirm = false;  ///< ask the lists about every answer that differs
-  std::string json;      ///< a file for one JSON object a scene and line; empty: none
+  bool cpu_time = false;  ///< not the wall clock's: for busy machines, one thread
+  bool confirm = false;   ///< ask the lists about every answer that differs
+  std::string json;       ///< a file for one JSON object a scene and line; empty: none
 };
 
 /// Reads the command line. Prints and exits for --help and for mistakes.

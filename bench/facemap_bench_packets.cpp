@@ -12,9 +12,6 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// A ray from the light ends this fraction short of its point, so that the point's own face does not hide it.
-constexpr float kShort = 0x1p-12f;
-
 struct Packet16 {
   static constexpr int kWidth = 16;
   using Ray = RTCRay16;

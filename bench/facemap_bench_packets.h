@@ -11,6 +11,9 @@
 
 namespace facemap::bench {
 
+/// A ray from the light ends this fraction short of its point, so that the point's own face does not hide it.
+constexpr float kShort = 0x1p-12f;
+
 /// One tile's rays through Embree, from directions to ids and masks. One a thread; its memory is the tile's alone.
 class TileTracer {
  public:

@@ -3,21 +3,14 @@
 #include <malloc.h>
 
 #include <algorithm>
-#include <chrono>
-#include <optional>
 
+#include "facemap_bench_clock.h"
 #include "facemap_bench_confirm.h"
 #include "facemap_bench_limit.h"
 #include "facemap_bench_memory.h"
 
 namespace facemap::bench {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 Renderer::Options renderer_options(const Options& options) {
   Renderer::Options made;
@@ -28,8 +21,11 @@ Renderer::Options renderer_options(const Options& options) {
   return made;
 }
 
-Phases phases_of(const Renderer::Statistics& statistics, double total) {
-  return {statistics.camera_map_ms, statistics.light_maps_ms, statistics.shade_ms, total};
+/// The statistics are of the wall clock; where the total is not, they are taken as its parts.
+Phases phases_of(const Renderer::Statistics& statistics, double total, Time time) {
+  const double sum = statistics.camera_map_ms + statistics.light_maps_ms + statistics.shade_ms;
+  const double scale = time == Time::Wall || sum == 0 ? 1 : total / sum;
+  return {statistics.camera_map_ms * scale, statistics.light_maps_ms * scale, statistics.shade_ms * scale, total};
 }
 
 /// Both sides and what they are asked.
@@ -39,9 +35,10 @@ class Match {
       : question_(question),
         options_(options),
         side_(options.size * options.samples),
+        time_(options.cpu_time ? Time::Process : Time::Wall),
         home_(question.view, side_, side_, options.samples),
         turned_(question.turned, side_, side_, options.samples),
-        embree_(question.scene, options.threads) {
+        embree_(question.scene, options.threads, options.cpu_time) {
     measured_.packet_width = embree_.packet_width();
     measured_.opponents = calibrate(embree_, home_, question.lights);
   }
@@ -76,19 +73,21 @@ class Match {
     Image image;
     const auto ours = [&] {
       image = Image();
-      const auto start = Clock::now();
+      const Stopwatch watch(time_);
       Renderer renderer(question_.scene, question_.view, question_.lights, renderer_options(options_));
       image = renderer.look();
-      rounds.ours.push_back(phases_of(renderer.statistics(), ms_since(start)));
+      const double ms = watch.milliseconds();
+      rounds.ours.push_back(phases_of(renderer.statistics(), ms, time_));
       rounds.statistics = renderer.statistics();
     };
     const auto theirs = [&] {
       const EmbreeWay& way = measured_.opponents.cold;
       embree_.drop();
+      const Stopwatch watch(time_);
       const double build_ms = embree_.build(way.low_quality, way.robust);
       Phases phases = embree_.trace(home_, question_.lights, way, answer);
+      phases.total = watch.milliseconds();
       phases.build = build_ms;
-      phases.total += build_ms;
       rounds.theirs.push_back(phases);
     };
     for (int round = 0; round < options_.repeat; ++round) take_turns(round, ours, theirs);
@@ -110,21 +109,25 @@ class Match {
       const bool back = (options_.repeat - round) % 2 == 0;
       const auto ours = [&] {
         image = Image();
-        const auto start = Clock::now();
+        const Stopwatch watch(time_);
         renderer.set_view(back ? question_.view : question_.turned);
         image = renderer.look();
-        rounds.ours.push_back(phases_of(renderer.statistics(), ms_since(start)));
+        const double ms = watch.milliseconds();
+        rounds.ours.push_back(phases_of(renderer.statistics(), ms, time_));
       };
       const auto theirs = [&] {
-        rounds.theirs.push_back(embree_.trace(back ? home_ : turned_, question_.lights, way, answer));
+        const Stopwatch watch(time_);
+        Phases phases = embree_.trace(back ? home_ : turned_, question_.lights, way, answer);
+        phases.total = watch.milliseconds();
+        rounds.theirs.push_back(phases);
       };
       take_turns(round, ours, theirs);
     }
     rounds.statistics = renderer.statistics();
     measured_.our_bytes = static_cast<std::int64_t>(rounds.statistics.map_bytes);
-    embree_.drop();
     finish(rounds, question_.turned, image, answer);
-    rounds.limit_ns = limit_ns(question_, question_.turned, image, options_.samples, options_.repeat);
+    rounds.limit_ns = limit_ns(question_, question_.turned, image, embree_, options_.samples, options_.repeat);
+    embree_.drop();
   }
 
   void finish(Rounds& rounds, const View& view, const Image& image, const Answer& answer) {
@@ -174,6 +177,7 @@ class Match {
   const Case& question_;
   const Options& options_;
   int side_;
+  Time time_;
   Rays home_, turned_;
   Embree embree_;
   Measured measured_;
