@@ -52,7 +52,7 @@ TEST(Repeats, AgreeWithComparingAll) {
 TEST(Repeats, OfManyItemsAreTheSameForAnyNumberOfThreads) {
   Random random(0x5eed0030);
   for (const int range : {1, 20, 60, 1000}) {
-    const std::vector<Key> keys = random_keys(200'000, range, random);
+    const std::vector<Key> keys = random_keys(100'000, range, random);
     const auto expected = find_by_comparing(keys);
     for (const int threads : {1, 2, 5}) EXPECT_EQ(find(keys, threads), expected) << range;
   }
@@ -65,7 +65,7 @@ TEST(Repeats, OfKeysThatShareTheirHashAreFoundInTime) {
   for (int i = 0; i < 5; ++i) inverse *= 2 - kFactor * inverse;
   ASSERT_EQ(kFactor * inverse, 1u);
   std::vector<Key> keys;
-  for (std::uint64_t lower = 0; lower < 200'000; ++lower) {
+  for (std::uint64_t lower = 0; lower < 100'000; ++lower) {
     const std::uint64_t two = (kUpper << 32 | lower) * inverse;
     const Key key{static_cast<std::uint32_t>(two >> 32), static_cast<std::uint32_t>(two),
                   static_cast<std::uint32_t>(lower ^ kUpper)};
