@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "map/face_planes.h"
+#include "scene/reserve_pages.h"
 
 namespace facemap {
 namespace {
@@ -72,7 +73,10 @@ void move_to_front(T* array, std::size_t from, std::size_t end) {
 void ShadowFaces::run(const ShadowRun& run, ShadowPoints& points, Counters& counters) {
   const Mesh& mesh = run.scene.mesh();
   const std::size_t vertices = mesh.positions.size();
-  if (places_.size() < 3 * (vertices + 16)) places_.resize(3 * (vertices + 16));
+  if (places_.size() < 3 * (vertices + 16)) {
+    reserve_pages(places_, 3 * (vertices + 16));
+    places_.resize(3 * (vertices + 16));
+  }
   const bool has_odd_faces = run.scene.kept_faces().size() != mesh.face_count();
   simd::project_vertices(run.frame, &mesh.positions[0].x, vertices, places_.data());
 

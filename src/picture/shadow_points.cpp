@@ -4,6 +4,8 @@
 #include <cstring>
 #include <limits>
 
+#include "scene/reserve_pages.h"
+
 namespace facemap {
 namespace {
 
@@ -21,7 +23,10 @@ constexpr std::size_t kFacesPerPointForSpots = 2;
 
 template <class T>
 void make_room(std::vector<T>& v, std::size_t count) {
-  if (v.size() < count) v.resize(count);
+  if (v.size() >= count) return;
+  v.clear();  // nothing to be copied
+  reserve_pages(v, count);
+  v.resize(count);
 }
 
 template <class T>
@@ -53,12 +58,9 @@ void ShadowPoints::sort(const simd::PointsToProject& from, std::size_t wanted, s
   make_room(points_, wanted + kPadding);
   has_spots_ = faces > kFacesPerPointForSpots * wanted;
   if (has_spots_) make_room(spots_, wanted + kPadding);
-  const std::size_t rest_before = rest.size();
-  rest.resize(rest_before + wanted + kPadding);
   simd::ProjectedPoints to{records_.data(), texels_.data(), points_.data(), has_spots_ ? spots_.data() : nullptr,
-                           rest.data() + rest_before};
+                           &rest};
   simd::project_points(from, raster_, to);
-  rest.resize(rest_before + to.rest_count);
   count_ = to.count;
 
   count_texels();

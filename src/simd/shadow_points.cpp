@@ -150,7 +150,9 @@ void project_points(const PointsToProject& from, const ShadowRaster& raster, Pro
       const auto is_on = hn::And(is_wanted, hn::RebindMask(du, is_inside));
       const auto is_rest = hn::AndNot(hn::RebindMask(du, is_inside), is_wanted);
       if (!hn::AllFalse(du, is_rest)) {
-        to.rest_count += hn::CompressStore(number, is_rest, du, to.rest + to.rest_count);
+        const std::size_t before = to.rest->size();
+        to.rest->resize(before + 16);
+        to.rest->resize(before + hn::CompressStore(number, is_rest, du, to.rest->data() + before));
       }
 
       const auto column = texel_of(u, raster.columns), row = texel_of(v, raster.rows);

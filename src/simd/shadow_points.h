@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "simd/shadow_frame.h"
 
@@ -46,15 +47,14 @@ struct PointsToProject {
   float nearest;  ///< points with a lesser Z are not for the raster
 };
 
-/// Where they go, in order; room for `count` + 16 each.
+/// Where they go, in order; room for 16 more than are wanted in each.
 struct ProjectedPoints {
   ShadowRecord* records;
-  std::uint32_t* texels;  ///< row * columns + column
-  std::uint32_t* points;  ///< which of the asked points
-  std::uint32_t* spots;   ///< as texels, of the finer raster; null: not wanted
-  std::uint32_t* rest;    ///< numbers of the points that are too near or not on the raster
+  std::uint32_t* texels;             ///< row * columns + column
+  std::uint32_t* points;             ///< which of the asked points
+  std::uint32_t* spots;              ///< as texels, of the finer raster; null: not wanted
+  std::vector<std::uint32_t>* rest;  ///< appended to: the points that are too near or not on the raster
   std::size_t count = 0;
-  std::size_t rest_count = 0;
 };
 
 /// Each of u, v, 1 and w is off by at most two roundings of float32 from what a common factor makes of the true ones,
