@@ -52,7 +52,7 @@ Camera::Hit Camera::nearest(const Vector& direction, Counters* counters) const {
   for (std::size_t first = 0; first < ids.size(); first += kChunk) {
     const std::size_t count = std::min(kChunk, ids.size() - first);
     const std::uint32_t* chunk = ids.data() + first;
-    if (planes().nearest()[chunk[0]] > best.reach() * planes().scale() * (1 + Texels::kDepthMargin)) break;
+    if (planes().nearest(chunk[0]) > best.reach() * planes().scale() * (1 + Texels::kDepthMargin)) break;
     simd::cone_verdicts(planes().planes(), chunk, count, filter.d, filter.length, verdicts);
     for (std::size_t i = 0; i < count; ++i) {
       const std::uint32_t id = chunk[i];

@@ -6,7 +6,10 @@
 #include <optional>
 
 #include "map/cone.h"
+#include "map/plane_cover.h"
+#include "map/texel_box.h"
 #include "map/texels.h"
+#include "math/dvector.h"
 #include "math/elementary.h"
 
 namespace facemap {
@@ -21,34 +24,24 @@ constexpr double kLargestBoxAngle = 2.6;
 // Longer edges than this (radians) are left to the blocks: their boxes would be mostly bulge.
 constexpr double kLongestBoxEdge = 0.5;
 
-// A plane projection's box needs every corner this far in front, as a share of its distance: 1/share^2 bounds
-// how much the projection stretches an angular error.
-constexpr double kForwardShare = 1.0 / 64;
+// Room that is made beforehand, entries a face.
+constexpr std::size_t kEntriesExpected = 8;
 
-// Texels by which the last step of the projection, adding the centre, may round a map point: half a unit in the last
-// place of a coordinate below 2^15, 2^-39 in x and y, and room for the sums made of it. It is an angle of its own:
-// where rasters are very oblong or a plane's field is near 180 degrees, a texel spans radians.
-constexpr double kCoordinateRounding = 0x1p-36;
-
-struct Box {
-  int x0, y0, x1, y1;  // texels, both ends inside
-
-  bool is_empty() const { return x0 > x1 || y0 > y1; }
-};
-
-class Builder {
+class ConeCover {
  public:
-  Builder(const SpaceVector& frame, const Projection& projection, const FacePlanesTable& planes, Coverage& out)
-      : frame_(frame), projection_(projection), planes_(planes), out_(out) {
+  ConeCover(const Scene& scene, const SpaceVector& frame, const Projection& projection, const FacePlanesTable& planes,
+            Coverage& out)
+      : scene_(scene), frame_(frame), projection_(projection), planes_(planes), out_(out) {
     while (root_size_ < std::max(projection.width(), projection.height())) root_size_ *= 2;
     for (int size = 1; size <= root_size_; size *= 2) radii_.emplace_back(block_cap_radius(projection, size));
     raster_ = {0, 0, projection.width() - 1, projection.height() - 1};
   }
 
-  void add(std::uint32_t id, const Triangle& face) {
-    const Cone cone(face, planes_.side(id), frame_);
-    const std::optional<Box> box = box_of(cone);
-    const Box region = box ? clipped(*box) : raster_;
+  void add(std::uint32_t id, Pass pass) {
+    pass_ = pass;
+    const Cone cone(triangle_of(scene_, id), planes_.side(id), frame_);
+    const std::optional<TexelBox> box = box_of(cone);
+    const TexelBox region = box ? box->clipped(projection_) : raster_;
     if (region.is_empty()) return;
     if (region.x0 == region.x1 && region.y0 == region.y1) {
       visit_texel(id, cone, region.x0, region.y0);
@@ -65,53 +58,34 @@ class Builder {
   // Boxes up to this many texels a side are walked texel by texel; larger ones by blocks.
   static constexpr int kSmallBox = 6;
 
-  Box clipped(const Box& b) const {
-    return {std::max(b.x0, raster_.x0), std::max(b.y0, raster_.y0), std::min(b.x1, raster_.x1),
-            std::min(b.y1, raster_.y1)};
+  std::uint32_t texel_number(int x, int y) const {
+    return static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(projection_.width()) +
+           static_cast<std::uint32_t>(x);
   }
 
-  // The box of the projected corners, grown by the bulge of the edges and by the map's error.
-  std::optional<Box> box_of(const Cone& cone) const {
-    const double tau = projection_.texel_angle();
-    const double angular_error = kDirectionError + 2 * Projection::kMapError;
-    double margin;  // texels
-    if (projection_.kind() == ProjectionKind::Surface) {
-      double farthest_beta = 0;
-      for (int i = 0; i < 3; ++i) {
-        const DVector& c = cone.corner(i);
-        farthest_beta = std::max(farthest_beta, elementary::atan2(std::sqrt(c.x * c.x + c.y * c.y), c.z));
-      }
-      const double beta = farthest_beta + cone.longest_angle();
-      if (beta > kLargestBoxAngle || cone.longest_angle() > kLongestBoxEdge) return std::nullopt;
-      // Near beta the map stretches angles across the radius by beta / sin(beta).
-      const double stretch = beta > 0.01 ? beta / elementary::sin(beta) : 1.01;
-      margin = (bulge(cone.longest_angle(), beta) + angular_error * stretch) / tau;
-    } else {
-      for (int i = 0; i < 3; ++i) {
-        const DVector& c = cone.corner(i);
-        if (!(c.z > kForwardShare * std::sqrt(c.x * c.x + c.y * c.y + c.z * c.z))) return std::nullopt;
-      }
-      margin = angular_error / (kForwardShare * kForwardShare) / tau;
-    }
-    margin += kCoordinateRounding;
-    double x0 = HUGE_VAL, y0 = HUGE_VAL, x1 = -HUGE_VAL, y1 = -HUGE_VAL;
+  // The box of the projected corners, grown by the bulge of the edges and by the map's error. None on a plane: faces
+  // that have one there are PlaneFaces.
+  std::optional<TexelBox> box_of(const Cone& cone) const {
+    if (projection_.kind() == ProjectionKind::Plane) return std::nullopt;
+    double farthest_beta = 0;
     for (int i = 0; i < 3; ++i) {
-      const MapPoint p = projection_.map_from_local(cone.corner(i));
-      x0 = std::min(x0, p.x);
-      y0 = std::min(y0, p.y);
-      x1 = std::max(x1, p.x);
-      y1 = std::max(y1, p.y);
+      const DVector& c = cone.corner(i);
+      farthest_beta = std::max(farthest_beta, elementary::atan2(std::sqrt(c.x * c.x + c.y * c.y), c.z));
     }
-    return Box{texel(x0 - margin), texel(y0 - margin), texel(x1 + margin), texel(y1 + margin)};
-  }
-
-  static int texel(double coordinate) {
-    constexpr double kFar = 1 << 20;  // texels: beyond any raster, within an int
-    return static_cast<int>(std::floor(std::clamp(coordinate, -kFar, kFar)));
+    const double beta = farthest_beta + cone.longest_angle();
+    if (beta > kLargestBoxAngle || cone.longest_angle() > kLongestBoxEdge) return std::nullopt;
+    // Near beta the map stretches angles across the radius by beta / sin(beta).
+    const double stretch = beta > 0.01 ? beta / elementary::sin(beta) : 1.01;
+    const double angular_error = kDirectionError + 2 * Projection::kMapError;
+    const double margin =
+        (bulge(cone.longest_angle(), beta) + angular_error * stretch) / projection_.texel_angle() + kCoordinateRounding;
+    const MapPoint corners[] = {projection_.map_from_local(cone.corner(0)), projection_.map_from_local(cone.corner(1)),
+                                projection_.map_from_local(cone.corner(2))};
+    return box_around(corners, margin);
   }
 
   // Quadtree of blocks, the root at (0, 0): a block goes on while the face may meet its cap.
-  void descend(std::uint32_t id, const Cone& cone, const Box& region, int x, int y, int size, int level) {
+  void descend(std::uint32_t id, const Cone& cone, const TexelBox& region, int x, int y, int size, int level) {
     if (x > region.x1 || y > region.y1 || x + size <= region.x0 || y + size <= region.y0) return;
     if (size == 1) {
       visit_texel(id, cone, x, y);
@@ -128,14 +102,14 @@ class Builder {
   void visit_texel(std::uint32_t id, const Cone& cone, int x, int y) {
     const MapPoint centre(x + 0.5, y + 0.5);
     if (is_beyond_antipode(centre)) return;
-    const auto texel =
-        static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(projection_.width()) + static_cast<std::uint32_t>(x);
+    const std::uint32_t texel = texel_number(x, y);
     const bool keeps_all = out_.cuts.empty();
-    if (!keeps_all && Texels::is_hidden(planes_.nearest()[id], out_.cuts[texel])) return;
+    const float nearest = planes_.nearest(id);
+    if (!keeps_all && Texels::is_hidden(nearest, out_.cuts[texel])) return;
     const DVector c = projection_.local_from_map(centre);
     if (!cone.may_meet(c, radii_[0])) return;
-    out_.entries.push_back({texel, id});
-    if (!keeps_all && cone.surely_covers(c, radii_[0])) {
+    if (pass_ != Pass::Cuts) out_.entries.push_back({texel, id, nearest});
+    if (pass_ != Pass::Entries && !keeps_all && cone.surely_covers(c, radii_[0])) {
       out_.cuts[texel] = std::min(out_.cuts[texel], float_above(cone.farthest(c, radii_[0]) * planes_.scale()));
     }
   }
@@ -149,13 +123,15 @@ class Builder {
 
   DVector direction(double map_x, double map_y) const { return projection_.local_from_map({map_x, map_y}); }
 
+  const Scene& scene_;
   const SpaceVector& frame_;
   const Projection& projection_;
   const FacePlanesTable& planes_;
   Coverage& out_;
   int root_size_ = 1;
   std::vector<Cone::Radius> radii_;  // by level: blocks of 1, 2, 4, ... texels
-  Box raster_;
+  TexelBox raster_;
+  Pass pass_ = Pass::Both;
 };
 
 }  // namespace
@@ -189,8 +165,19 @@ Coverage cover_faces(const Scene& scene, const SpaceVector& frame, const Project
         static_cast<std::size_t>(projection.width()) * static_cast<std::size_t>(projection.height());
     coverage.cuts.assign(texel_count, std::numeric_limits<float>::infinity());
   }
-  Builder builder(frame, projection, planes, coverage);
-  for (const std::uint32_t id : planes.front_to_back(scene)) builder.add(id, triangle_of(scene, id));
+  ConeCover cones(scene, frame, projection, planes, coverage);
+  if (projection.kind() == ProjectionKind::Surface) {
+    for (const std::uint32_t id : planes.front_to_back(scene)) cones.add(id, Pass::Both);
+    return coverage;
+  }
+  PlaneCover plane(scene, frame, projection, planes, coverage);
+  coverage.entries.reserve(kEntriesExpected * scene.kept_faces().size());
+  for (const Pass pass : {Pass::Cuts, Pass::Entries}) {
+    if (pass == Pass::Cuts && keep_all) continue;
+    for (const std::uint32_t id : scene.kept_faces()) {
+      if (planes.side(id) != 0 && !plane.add(id, pass)) cones.add(id, pass);
+    }
+  }
   return coverage;
 }
 

@@ -19,10 +19,23 @@ namespace facemap {
 /// direction lies within texel_angle sqrt(2)/2 of the texel's centre direction c, and D within block_cap_radius()
 /// of it. A texel is kept unless no direction of that cap hits the face (Cone::may_meet). Blocks of texels are the
 /// same with a larger cap.
+///
+/// On a plane projection nothing is curved on the map either. A face well in front of it is the triangle of its
+/// corners' images there (PlaneFace): its texels are those whose square, grown by the error of map points, the triangle
+/// meets.
 struct Coverage {
-  std::vector<TexelEntry> entries;  ///< front to back: by nearest bound, then id
+  std::vector<TexelEntry> entries;  ///< each texel and face once, in no order
   std::vector<float> cuts;  ///< a texel: upper bound (map units) of the distance of a face that covers all of its cap
 };
+
+/// What a face is added to: the cuts of texels, the entries (of which those hidden behind a cut are left out), or both,
+/// for faces that come front to back.
+enum class Pass { Cuts, Entries, Both };
+
+/// Texels by which the last step of the projection, adding the centre, may round a map point: half a unit in the last
+/// place of a coordinate below 2^15, 2^-39 in x and y, and room for the sums made of it. It is an angle of its own:
+/// where rasters are very oblong or a plane's field is near 180 degrees, a texel spans radians.
+inline constexpr double kCoordinateRounding = 0x1p-36;
 
 /// Faces that begin beyond a texel's cut are left out of it as they come, unless `keep_all`; cuts are empty then.
 Coverage cover_faces(const Scene& scene, const SpaceVector& frame, const Projection& projection,

@@ -18,13 +18,11 @@ Texels build_texels(const Scene& scene, const SpaceVector& frame, const Projecti
   if (builder == Builder::Fill) {
     std::vector<TexelEntry> entries;
     fill_faces(scene, frame, projection, entries);
-    std::stable_sort(entries.begin(), entries.end(), [&](const TexelEntry& a, const TexelEntry& b) {
-      return planes.nearest()[a.face] < planes.nearest()[b.face];
-    });
-    return Texels(texel_count, entries, planes.nearest(), {});
+    for (TexelEntry& entry : entries) entry.nearest = planes.nearest(entry.face);
+    return Texels(texel_count, entries, {});
   }
   const Coverage coverage = cover_faces(scene, frame, projection, planes, keep_all);
-  return Texels(texel_count, coverage.entries, planes.nearest(), coverage.cuts);
+  return Texels(texel_count, coverage.entries, coverage.cuts);
 }
 
 }  // namespace

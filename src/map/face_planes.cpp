@@ -1,41 +1,17 @@
 #include "map/face_planes.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
 
-#include "math/vec3.h"
+#include "math/dvector.h"
 #include "scene/reserve_pages.h"
+#include "simd/list_planes.h"
 
 namespace facemap {
 namespace {
-
-constexpr double kFloatHalfUlp = 0x1p-24;
-
-// Roundings between a true edge product m . d and the computed one, in units of 2^-24 |m| |d|: m to float32 (1),
-// d to float32 (1) and kDirectionError, three products and two sums (3). 6 leaves room for the rounding of the
-// bound itself and for second-order terms.
-constexpr double kDotRoundings = 6;
-
-// The offset rounded to float32 (1) and the last subtraction (1, of a result that is at most |n . D| + offset).
-constexpr double kOffsetRoundings = 3;
-
-Vec3<Tracked> difference(const Vector& a, const Vector& b) {
-  return {Tracked::difference(a.x, b.x), Tracked::difference(a.y, b.y), Tracked::difference(a.z, b.z)};
-}
-
-double length(const Vec3<Tracked>& v) {
-  return std::sqrt(v.x.value * v.x.value + v.y.value * v.y.value + v.z.value * v.z.value);
-}
-
-double error_of(const Vec3<Tracked>& v) { return v.x.error + v.y.error + v.z.error; }
-
-void store(const Vec3<Tracked>& v, double factor, int plane, simd::FacePlanes& planes) {
-  planes.x[plane] = static_cast<float>(v.x.value * factor);
-  planes.y[plane] = static_cast<float>(v.y.value * factor);
-  planes.z[plane] = static_cast<float>(v.z.value * factor);
-}
 
 double power_of_two(int exponent) { return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52); }
 
@@ -43,6 +19,30 @@ double power_of_two(int exponent) { return std::bit_cast<double>(static_cast<std
 double inverse_power_of_two(double x) {
   if (!(x > 0)) return 1;
   return power_of_two(1023 - static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52));
+}
+
+// One pass of a radix sort, ascending by eleven bits and else in the order that was; `from` and `to` change places.
+void sort_by_bits(std::vector<std::uint64_t>& from, int shift, std::vector<std::uint64_t>& to) {
+  constexpr std::size_t kDigits = 1 << 11;
+  std::array<std::size_t, kDigits + 1> next{};
+  const auto digit = [shift](std::uint64_t key) { return (key >> shift) & (kDigits - 1); };
+  for (const std::uint64_t key : from) ++next[digit(key) + 1];
+  for (std::size_t i = 0; i < kDigits; ++i) next[i + 1] += next[i];
+  for (const std::uint64_t key : from) to[next[digit(key)]++] = key;
+  from.swap(to);
+}
+
+// Sixteen faces, of which the last ones may be the same.
+void gather(const Mesh& mesh, const std::uint32_t* ids, std::size_t count, simd::SetupCorners& corners) {
+  for (std::size_t i = 0; i < simd::kSetupFaces; ++i) {
+    const std::uint32_t id = ids[std::min(i, count - 1)];
+    for (int k = 0; k < 3; ++k) {
+      const Vector& v = mesh.vertex(id, k);
+      corners.of[k][0][i] = v.x;
+      corners.of[k][1][i] = v.y;
+      corners.of[k][2][i] = v.z;
+    }
+  }
 }
 
 }  // namespace
@@ -66,66 +66,58 @@ double distance_bound(double nearest_corner, double longest_edge) {
   return squared > 0 ? std::sqrt(squared) : 0;
 }
 
-FacePlanesTable::FacePlanesTable(const Scene& scene, const Vector& origin)
-    : sides_(scene.face_count()), nearest_(scene.face_count()) {
+FacePlanesTable::FacePlanesTable(const Scene& scene, const Vector& origin) : sides_(scene.face_count()) {
   reserve_pages(planes_, scene.face_count());  // read in no order
   planes_.resize(scene.face_count());
-  double farthest = 0;
-  for (const std::uint32_t id : scene.kept_faces()) {
-    for (const Vector& v : triangle_of(scene, id)) farthest = std::max(farthest, length(difference(v, origin)));
-  }
+  const double farthest = length(scene.centre() - DVector(origin)) + scene.bounding_radius();
   scale_ = inverse_power_of_two(farthest);
 
-  for (const std::uint32_t id : scene.kept_faces()) {
-    const Triangle f = triangle_of(scene, id);
-    const int s = facemap::side(f, origin);
-    sides_[id] = static_cast<std::int8_t>(s);
-    if (s == 0) continue;
-
-    simd::FacePlanes& p = planes_[id];
-    const double square = s * scale_ * scale_, area = scale_ * scale_;
-    double largest_edge_error = 0, longest_edge = 0, nearest_corner = HUGE_VAL;
-    for (int i = 0; i < 3; ++i) {
-      const Vec3<Tracked> corner = difference(f[i], origin), along = difference(f[(i + 1) % 3], f[i]);
-      const Vec3<Tracked> m = cross(corner, along);
-      store(m, square, i, p);
-      largest_edge_error = std::max(largest_edge_error, kDotRoundings * kFloatHalfUlp * length(m) + 2 * error_of(m));
-      longest_edge = std::max(longest_edge, length(along));
-      nearest_corner = std::min(nearest_corner, length(corner));
+  const float O[3] = {origin.x, origin.y, origin.z};
+  const std::vector<std::uint32_t>& ids = scene.kept_faces();
+  simd::SetupCorners corners;
+  simd::SetupPlanes planes;
+  for (std::size_t first = 0; first < ids.size(); first += simd::kSetupFaces) {
+    const std::size_t count = std::min(simd::kSetupFaces, ids.size() - first);
+    gather(scene.mesh(), ids.data() + first, count, corners);
+    simd::set_up_list_planes(corners, O, scale_, planes);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t id = ids[first + i];
+      const int s = planes.side[i] != 0 ? planes.side[i] : facemap::side(triangle_of(scene, id), origin);
+      sides_[id] = static_cast<std::int8_t>(s);
+      if (s != 0) store(planes, i, s, planes_[id]);
     }
-    p.edge_error = float_above(largest_edge_error * area);
-
-    const Vec3<Tracked> n = cross(difference(f[1], f[0]), difference(f[2], f[0]));
-    const Tracked offset = dot(n, difference(f[0], origin));
-    const double n_length = length(n), n_error = error_of(n);
-    store(n, square, 3, p);
-    p.offset = static_cast<float>(offset.value * square * scale_);
-    p.normal_error = float_above((kDotRoundings * kFloatHalfUlp * n_length + 2 * n_error) * area);
-    p.offset_error =
-        float_above((kOffsetRoundings * kFloatHalfUlp * std::fabs(offset.value) + 2 * offset.error) * area * scale_);
-
-    // The larger of the corners' bound and the plane's distance, less what rounding may have added to it.
-    const double plane_distance = (std::fabs(offset.value) - 2 * offset.error) / (n_length + 2 * n_error);
-    const double bound = std::max(distance_bound(nearest_corner, longest_edge), plane_distance);
-    nearest_[id] = std::max(0.0f, float_below(bound * scale_));
   }
 }
 
-std::vector<std::uint32_t> FacePlanesTable::front_to_back(const Scene& scene) const {
-  std::vector<std::uint32_t> ids;
-  ids.reserve(scene.kept_faces().size());
-  for (const std::uint32_t id : scene.kept_faces()) {
-    if (side(id) != 0) ids.push_back(id);
+void FacePlanesTable::store(const simd::SetupPlanes& from, std::size_t i, int side, simd::FacePlanes& to) const {
+  const auto sign = static_cast<float>(side);
+  for (int k = 0; k < 4; ++k) {
+    to.x[k] = from.x[k][i] * sign;
+    to.y[k] = from.y[k][i] * sign;
+    to.z[k] = from.z[k][i] * sign;
   }
-  std::sort(ids.begin(), ids.end(), [this](std::uint32_t a, std::uint32_t b) {
-    return nearest_[a] != nearest_[b] ? nearest_[a] < nearest_[b] : a < b;
-  });
+  to.offset = from.offset[i] * sign;
+  to.error = from.error[i];
+  to.offset_error = from.offset_error[i];
+  const double bound = std::max(distance_bound(from.nearest_corner[i], from.longest_edge[i]), from.plane_distance[i]);
+  to.nearest = std::max(0.0f, float_below(bound * scale_));
+}
+
+std::vector<std::uint32_t> FacePlanesTable::front_to_back(const Scene& scene) const {
+  std::vector<std::uint64_t> keys;  // bound, which is not negative, and id
+  keys.reserve(scene.kept_faces().size());
+  for (const std::uint32_t id : scene.kept_faces()) {
+    if (side(id) != 0) keys.push_back(std::uint64_t{std::bit_cast<std::uint32_t>(nearest(id))} << 32 | id);
+  }
+  std::vector<std::uint64_t> sorted(keys.size());
+  for (const int shift : {32, 43, 54}) sort_by_bits(keys, shift, sorted);
+  std::vector<std::uint32_t> ids(keys.size());
+  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = static_cast<std::uint32_t>(keys[i]);
   return ids;
 }
 
 std::size_t FacePlanesTable::memory_bytes() const noexcept {
-  return sides_.size() * sizeof(std::int8_t) + planes_.size() * sizeof(simd::FacePlanes) +
-         nearest_.size() * sizeof(float);
+  return sides_.size() * sizeof(std::int8_t) + planes_.size() * sizeof(simd::FacePlanes);
 }
 
 }  // namespace facemap

@@ -10,23 +10,25 @@
 
 namespace facemap {
 
+namespace simd {
+struct SetupPlanes;
+}
+
 /// What a map knows of each face about its origin O, by face id: on which side of its plane O lies (exact), the
 /// float32 planes of the filter, and bounds of its distance. Odd faces have side 0.
 class FacePlanesTable {
  public:
   FacePlanesTable(const Scene& scene, const Vector& origin);
 
-  /// Map units a world unit: a power of two that brings the farthest vertex to within [1, 2), so that no
-  /// product of the filter overflows whatever the scene's size.
+  /// Map units a world unit: a power of two that brings the far side of the scene's bounding sphere to within [1, 2),
+  /// so that no product of the filter overflows whatever the scene's size.
   double scale() const noexcept { return scale_; }
 
   int side(std::uint32_t face) const { return sides_[face]; }
   const simd::FacePlanes* planes() const noexcept { return planes_.data(); }
 
-  /// Lower bound of the distance of face `id` from O (map units, rounded down), by id.
-  const float* nearest() const noexcept { return nearest_.data(); }
-
-  simd::FaceTable table() const noexcept { return {planes_.data(), nearest_.data()}; }
+  /// Lower bound of the distance of face `id` from O (map units, rounded down).
+  float nearest(std::uint32_t face) const { return planes_[face].nearest; }
 
   /// Ids of the faces that O does not see edge-on, by nearest bound, then id.
   std::vector<std::uint32_t> front_to_back(const Scene& scene) const;
@@ -34,10 +36,11 @@ class FacePlanesTable {
   std::size_t memory_bytes() const noexcept;
 
  private:
+  void store(const simd::SetupPlanes& from, std::size_t i, int side, simd::FacePlanes& to) const;
+
   double scale_ = 1;
   std::vector<std::int8_t> sides_;
   std::vector<simd::FacePlanes> planes_;
-  std::vector<float> nearest_;
 };
 
 /// The corners of a face.

@@ -176,7 +176,7 @@ bool PointLight::is_blocked(const DVector& offset, const Point& point, std::uint
     // What the filter takes for a blocker may be within the tolerance.
     return is_blocked_for_sure(ids, is_past_cut, skip, [&](std::uint32_t id) {
       std::uint32_t undecided;
-      const simd::BlockWalk walk = simd::find_blocker(planes().table(), &id, 1, asked, kSkipNone, &undecided);
+      const simd::BlockWalk walk = simd::find_blocker(planes().planes(), &id, 1, asked, kSkipNone, &undecided);
       return (walk.blocked || walk.undecided > 0) && exact(id);
     });
   }
@@ -186,7 +186,7 @@ bool PointLight::is_blocked(const DVector& offset, const Point& point, std::uint
   }
   std::uint32_t undecided[kFewFaces];
   for (std::size_t first = 0; first < ids.size(); first += kFewFaces) {
-    const simd::BlockWalk walk = simd::find_blocker(planes().table(), ids.data() + first,
+    const simd::BlockWalk walk = simd::find_blocker(planes().planes(), ids.data() + first,
                                                     std::min(kFewFaces, ids.size() - first), asked, skip, undecided);
     if (counters != nullptr) counters->by_float += walk.tested - walk.undecided;
     if (walk.blocked || std::any_of(undecided, undecided + walk.undecided, exact)) return true;
@@ -254,7 +254,7 @@ void PointLight::ask_together(std::span<const Vector> points, std::uint8_t* lit,
     }
   }
   simd::Verdict verdicts[simd::kChunk];
-  by_float += simd::find_blockers(planes().table(), ids, counts, asked, asked_count, verdicts);
+  by_float += simd::find_blockers(planes().planes(), ids, counts, asked, asked_count, verdicts);
   for (std::size_t k = 0; k < asked_count; ++k) {
     const std::size_t i = numbers[k];
     lit[i] = verdicts[k] == simd::kUndecided ? get_lighten_up(points[i], counters) : verdicts[k] == simd::kNo;

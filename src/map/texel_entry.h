@@ -8,6 +8,7 @@ namespace facemap {
 struct TexelEntry {
   std::uint32_t texel;
   std::uint32_t face;
+  float nearest = 0;  ///< the face's lower bound of distance, by which lists are ordered; not negative
 };
 
 }  // namespace facemap

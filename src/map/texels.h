@@ -9,15 +9,13 @@
 
 namespace facemap {
 
-/// The storage of a map: the faces of each texel, nearest bound first, as flat arrays. Nothing else knows its
-/// layout.
+/// The storage of a map: the faces of each texel, nearest bound first, then by id, as flat arrays. Nothing else knows
+/// its layout.
 class Texels {
  public:
-  /// `entries` front to back within each texel. `nearest` gives each face's lower bound of distance; `cuts`
-  /// (empty, or one a texel) a distance that a face covering the whole texel does not exceed: entries hidden
-  /// behind it are dropped. Same units for both.
-  Texels(std::size_t texel_count, std::span<const TexelEntry> entries, const float* nearest,
-         std::span<const float> cuts);
+  /// `entries` in any order. `cuts` (empty, or one a texel): a distance that a face covering the whole texel does not
+  /// exceed. Entries hidden behind it may be missing.
+  Texels(std::size_t texel_count, std::span<const TexelEntry> entries, std::span<const float> cuts);
 
   /// Margin, relative, between a query's distance and the bounds it is compared with. Distances of queries and
   /// bounds are rounded to float32 (2^-24, twice) and directions are off by 2^-24: below 2^-21 together.
@@ -28,9 +26,7 @@ class Texels {
   static bool is_hidden(float nearest, float cut) { return nearest > cut * (1 + 2 * kDepthMargin); }
 
   std::span<const std::uint32_t> faces_at(std::size_t texel) const {
-    const std::uint64_t base = bases_[texel / kBlock];
-    const std::uint32_t first = texels_[texel].first;
-    return {faces_.data() + base + (first - static_cast<std::uint32_t>(base)), texels_[texel + 1].first - first};
+    return {faces_.data() + begin_of(texel), texels_[texel + 1].first - texels_[texel].first};
   }
 
   /// Beyond this distance every direction of the texel is blocked; infinity if no face covers it.
@@ -50,6 +46,11 @@ class Texels {
     float cut;
   };
   static constexpr std::size_t kBlock = 256;  // texels
+
+  std::size_t begin_of(std::size_t texel) const {
+    const std::uint64_t base = bases_[texel / kBlock];
+    return base + (texels_[texel].first - static_cast<std::uint32_t>(base));
+  }
 
   std::vector<Texel> texels_;  // and one more: the end
   std::vector<std::uint64_t> bases_;

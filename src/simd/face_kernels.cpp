@@ -56,7 +56,7 @@ struct Signs {
 HWY_INLINE Verdict cone_verdict(const FacePlanes& p, const Direction& d) {
   const Tag tag;
   Signs signs;
-  const V bound = hn::Add(hn::Mul(hn::Set(tag, p.edge_error), d.length), hn::Set(tag, kUnderflow));
+  const V bound = hn::Add(hn::Mul(hn::Set(tag, p.error), d.length), hn::Set(tag, kUnderflow));
   const V passes = hn::Set(tag, std::numeric_limits<float>::infinity());
   for (std::size_t lane = 0; lane < kPlanes; lane += hn::Lanes(tag)) {
     signs.require(hn::IfThenElse(is_normal(lane), passes, dot(p, lane, d)), bound);
@@ -67,11 +67,11 @@ HWY_INLINE Verdict cone_verdict(const FacePlanes& p, const Direction& d) {
 HWY_INLINE Verdict block_verdict(const FacePlanes& p, const Direction& D) {
   const Tag tag;
   Signs signs;
+  const V error = hn::Mul(hn::Set(tag, p.error), D.length);
   for (std::size_t lane = 0; lane < kPlanes; lane += hn::Lanes(tag)) {
     const hn::Mask<Tag> normal = is_normal(lane);
-    const V error = hn::IfThenElse(normal, hn::Set(tag, p.normal_error), hn::Set(tag, p.edge_error));
     const V offset_error = hn::IfThenElseZero(normal, hn::Set(tag, p.offset_error));
-    const V bound = hn::Add(hn::Add(hn::Mul(error, D.length), offset_error), hn::Set(tag, kUnderflow));
+    const V bound = hn::Add(hn::Add(error, offset_error), hn::Set(tag, kUnderflow));
     const V offset = hn::IfThenElseZero(normal, hn::Set(tag, p.offset));
     signs.require(hn::Sub(dot(p, lane, D), offset), bound);
   }
@@ -84,19 +84,19 @@ void cone_verdicts(const FacePlanes* planes, const std::uint32_t* ids, std::size
   for (std::size_t i = 0; i < count; ++i) verdicts[i] = cone_verdict(planes[ids[i]], direction);
 }
 
-BlockWalk find_blocker(const FaceTable& table, const std::uint32_t* ids, std::size_t count, const ListPoint& point,
+BlockWalk find_blocker(const FacePlanes* planes, const std::uint32_t* ids, std::size_t count, const ListPoint& point,
                        std::uint32_t skip, std::uint32_t* undecided) {
   const Direction D = direction_of(point.D, point.length);
   BlockWalk walk;
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t id = ids[i];
-    if (table.nearest[id] > point.reach) {
+    if (planes[id].nearest > point.reach) {
       walk.ended = true;
       return walk;
     }
     if (id == skip) continue;
     ++walk.tested;
-    const Verdict verdict = block_verdict(table.planes[id], D);
+    const Verdict verdict = block_verdict(planes[id], D);
     if (verdict == kYes) {
       walk.blocked = true;
       return walk;
@@ -107,15 +107,15 @@ BlockWalk find_blocker(const FaceTable& table, const std::uint32_t* ids, std::si
 }
 
 // The same without a skipped face; kUndecided ends nothing, since a later face may surely block.
-HWY_INLINE Verdict walk_list(const FaceTable& table, const std::uint32_t* ids, std::size_t count,
+HWY_INLINE Verdict walk_list(const FacePlanes* planes, const std::uint32_t* ids, std::size_t count,
                              const ListPoint& point, std::size_t& decided) {
   const Direction D = direction_of(point.D, point.length);
   std::size_t undecided = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t id = ids[i];
-    if (table.nearest[id] > point.reach) count = i;  // the last
+    if (planes[id].nearest > point.reach) count = i;  // the last
     if (i == count) break;
-    const Verdict verdict = block_verdict(table.planes[id], D);
+    const Verdict verdict = block_verdict(planes[id], D);
     if (verdict == kYes) {
       decided += i + 1 - undecided;
       return kYes;
@@ -127,16 +127,15 @@ HWY_INLINE Verdict walk_list(const FaceTable& table, const std::uint32_t* ids, s
   return kNo;
 }
 
-std::size_t find_blockers(const FaceTable& table, const std::uint32_t* const* ids, const std::uint32_t* counts,
+std::size_t find_blockers(const FacePlanes* planes, const std::uint32_t* const* ids, const std::uint32_t* counts,
                           const ListPoint* points, std::size_t count, Verdict* verdicts) {
   for (std::size_t i = 0; i < count; ++i) {
     for (std::uint32_t k = 0; k < counts[i] && k < 2; ++k) {
-      hwy::Prefetch(table.nearest + ids[i][k]);
-      hwy::Prefetch(table.planes + ids[i][k]);
+      hwy::Prefetch(planes + ids[i][k]);
     }
   }
   std::size_t decided = 0;
-  for (std::size_t i = 0; i < count; ++i) verdicts[i] = walk_list(table, ids[i], counts[i], points[i], decided);
+  for (std::size_t i = 0; i < count; ++i) verdicts[i] = walk_list(planes, ids[i], counts[i], points[i], decided);
   return decided;
 }
 
@@ -151,14 +150,14 @@ void cone_verdicts(const FacePlanes* planes, const std::uint32_t* ids, std::size
   FACEMAP_DISPATCH(cone_verdicts)(planes, ids, count, d, length, verdicts);
 }
 
-BlockWalk find_blocker(const FaceTable& table, const std::uint32_t* ids, std::size_t count, const ListPoint& point,
+BlockWalk find_blocker(const FacePlanes* planes, const std::uint32_t* ids, std::size_t count, const ListPoint& point,
                        std::uint32_t skip, std::uint32_t* undecided) {
-  return FACEMAP_DISPATCH(find_blocker)(table, ids, count, point, skip, undecided);
+  return FACEMAP_DISPATCH(find_blocker)(planes, ids, count, point, skip, undecided);
 }
 
-std::size_t find_blockers(const FaceTable& table, const std::uint32_t* const* ids, const std::uint32_t* counts,
+std::size_t find_blockers(const FacePlanes* planes, const std::uint32_t* const* ids, const std::uint32_t* counts,
                           const ListPoint* points, std::size_t count, Verdict* verdicts) {
-  return FACEMAP_DISPATCH(find_blockers)(table, ids, counts, points, count, verdicts);
+  return FACEMAP_DISPATCH(find_blockers)(planes, ids, counts, points, count, verdicts);
 }
 
 }  // namespace facemap::simd

@@ -11,13 +11,13 @@ namespace facemap::simd {
 /// units: world units times the map's power of two (FacePlanesTable::scale). Signs are folded in: a direction d
 /// lies in the cone where all edge[i] . d >= 0, a point O + D beyond the plane where normal . D > offset.
 struct alignas(64) FacePlanes {
-  float x[4];  ///< first components of s (v[i] - O) x (v[i+1] - v[i]) for the three edges, and of the normal
-  float y[4];  ///< s (b - a) x (c - a): edge[0], edge[1], edge[2], normal
+  float x[4];  ///< first components of edge[0], edge[1], edge[2] and normal: s (v[i] - O) x (v[i+1] - v[i])
+  float y[4];  ///< and s (b - a) x (c - a), each times a power of two that brings its length to within [1, 2)
   float z[4];
   float offset;        ///< s normal . (a - O) > 0
-  float edge_error;    ///< |computed edge . d - true| <= edge_error |d| + kUnderflow
-  float normal_error;  ///< the same for normal . D
-  float offset_error;  ///< and this much more for its difference with offset
+  float error;         ///< |computed plane . d - true| <= error |d| + kUnderflow
+  float offset_error;  ///< and this much more for the difference of normal . D and offset
+  float nearest;       ///< lower bound of the face's distance from O (map units, rounded down)
 };
 
 /// What float32 underflow can lose in a dot product of planes and directions, flush-to-zero included.
@@ -33,12 +33,6 @@ enum Verdict : std::uint8_t { kNo = 0, kYes = 1, kUndecided = 2 };
 /// A direction within 1.25 * 2^-24 |d| of d gets the same verdict unless it is kUndecided.
 void cone_verdicts(const FacePlanes* planes, const std::uint32_t* ids, std::size_t count, const float d[3],
                    float length, Verdict* verdicts);
-
-/// What is known of all faces about one origin, by id.
-struct FaceTable {
-  const FacePlanes* planes;
-  const float* nearest;  ///< lower bounds of their distances, map units
-};
 
 /// A point O + D as the filter takes it, map units.
 struct ListPoint {
@@ -56,7 +50,7 @@ struct BlockWalk {
   bool blocked = false;
   bool ended = false;  ///< at a face beyond the reach
 };
-BlockWalk find_blocker(const FaceTable& table, const std::uint32_t* ids, std::size_t count, const ListPoint& point,
+BlockWalk find_blocker(const FacePlanes* planes, const std::uint32_t* ids, std::size_t count, const ListPoint& point,
                        std::uint32_t skip, std::uint32_t* undecided);
 
 /// Points that are asked together.
@@ -64,7 +58,7 @@ inline constexpr std::size_t kChunk = 64;
 
 /// For each of `count` (at most kChunk) points its list ids[i][0..counts[i]): what find_blocker would answer, kNo or
 /// kYes, or kUndecided where a face is. Returns how many faces decided something for the points with an answer.
-std::size_t find_blockers(const FaceTable& table, const std::uint32_t* const* ids, const std::uint32_t* counts,
+std::size_t find_blockers(const FacePlanes* planes, const std::uint32_t* const* ids, const std::uint32_t* counts,
                           const ListPoint* points, std::size_t count, Verdict* verdicts);
 
 }  // namespace facemap::simd

@@ -21,7 +21,7 @@ float dot(const FacePlanes& p, int plane, const float d[3]) {
 }
 
 Verdict cone_verdict(const FacePlanes& p, const float d[3], float length) {
-  const float bound = p.edge_error * length + kUnderflow;
+  const float bound = p.error * length + kUnderflow;
   bool is_inside = true;
   for (int i = 0; i < 3; ++i) {
     const float value = dot(p, i, d);
@@ -32,22 +32,22 @@ Verdict cone_verdict(const FacePlanes& p, const float d[3], float length) {
 }
 
 Verdict block_verdict(const FacePlanes& p, const ListPoint& point) {
-  const float bound = p.normal_error * point.length + p.offset_error + kUnderflow;
+  const float bound = p.error * point.length + p.offset_error + kUnderflow;
   const float beyond = dot(p, 3, point.D) - p.offset;
   if (beyond < -bound) return kNo;
   const Verdict cone = cone_verdict(p, point.D, point.length);
   return cone == kYes && !(beyond > bound) ? kUndecided : cone;
 }
 
-BlockWalk walk(const FaceTable& table, const std::vector<std::uint32_t>& ids, const ListPoint& point,
+BlockWalk walk(const std::vector<FacePlanes>& planes, const std::vector<std::uint32_t>& ids, const ListPoint& point,
                std::uint32_t skip, std::vector<std::uint32_t>& undecided) {
   BlockWalk result;
   for (const std::uint32_t id : ids) {
-    result.ended = table.nearest[id] > point.reach;
+    result.ended = planes[id].nearest > point.reach;
     if (result.ended) break;
     if (id == skip) continue;
     ++result.tested;
-    const Verdict verdict = block_verdict(table.planes[id], point);
+    const Verdict verdict = block_verdict(planes[id], point);
     result.blocked = verdict == kYes;
     if (result.blocked) break;
     if (verdict == kUndecided) undecided.push_back(id);
@@ -73,15 +73,8 @@ float any_float(Random& random) {
   }
 }
 
-struct Table {
-  std::vector<FacePlanes> planes;
-  std::vector<float> nearest;
-
-  FaceTable view() const { return {planes.data(), nearest.data()}; }
-};
-
-Table make_table(Random& random) {
-  Table table;
+std::vector<FacePlanes> make_table(Random& random) {
+  std::vector<FacePlanes> table;
   for (int face = 0; face < 200; ++face) {
     FacePlanes p;
     const bool is_wild = random.chance(0.2);
@@ -94,11 +87,10 @@ Table make_table(Random& random) {
       p.z[i] = number(1);
     }
     p.offset = number(1.5);
-    p.edge_error = std::fabs(number(0x1p-5));
-    p.normal_error = std::fabs(number(0x1p-5));
+    p.error = std::fabs(number(0x1p-5));
     p.offset_error = std::fabs(number(0x1p-5));
-    table.planes.push_back(p);
-    table.nearest.push_back(is_wild ? any_float(random) : static_cast<float>(face * 0.01));
+    p.nearest = is_wild ? any_float(random) : static_cast<float>(face * 0.01);
+    table.push_back(p);
   }
   return table;
 }
@@ -132,13 +124,13 @@ TEST_P(FaceKernels, ConesAreAsDefined) {
   Random random(21);
   int seen[3] = {0, 0, 0};
   for (int round = 0; round < 2000; ++round) {
-    const Table table = make_table(random);
+    const std::vector<FacePlanes> table = make_table(random);
     const ListPoint d = make_point(random);
     const std::vector<std::uint32_t> ids = make_list(random);
     std::vector<Verdict> verdicts(ids.size());
-    cone_verdicts(table.planes.data(), ids.data(), ids.size(), d.D, d.length, verdicts.data());
+    cone_verdicts(table.data(), ids.data(), ids.size(), d.D, d.length, verdicts.data());
     for (std::size_t i = 0; i < ids.size(); ++i) {
-      ASSERT_EQ(verdicts[i], cone_verdict(table.planes[ids[i]], d.D, d.length));
+      ASSERT_EQ(verdicts[i], cone_verdict(table[ids[i]], d.D, d.length));
       ++seen[verdicts[i]];
     }
   }
@@ -149,14 +141,14 @@ TEST_P(FaceKernels, WalksAreAsDefined) {
   Random random(22);
   int blocked = 0, undecided_count = 0;
   for (int round = 0; round < 2000; ++round) {
-    const Table table = make_table(random);
+    const std::vector<FacePlanes> table = make_table(random);
     for (int i = 0; i < 8; ++i) {
       const ListPoint point = make_point(random);
       const std::vector<std::uint32_t> ids = make_list(random);
       const std::uint32_t skip = ids.empty() || random.chance(0.5) ? 0xffffffffu : ids[ids.size() / 2];
       std::vector<std::uint32_t> undecided(ids.size()), truly_undecided;
-      const BlockWalk found = find_blocker(table.view(), ids.data(), ids.size(), point, skip, undecided.data());
-      const BlockWalk truth = walk(table.view(), ids, point, skip, truly_undecided);
+      const BlockWalk found = find_blocker(table.data(), ids.data(), ids.size(), point, skip, undecided.data());
+      const BlockWalk truth = walk(table, ids, point, skip, truly_undecided);
       ASSERT_EQ(found.tested, truth.tested);
       ASSERT_EQ(found.blocked, truth.blocked);
       ASSERT_EQ(found.ended, truth.ended);
@@ -173,7 +165,7 @@ TEST_P(FaceKernels, WalksAreAsDefined) {
 TEST_P(FaceKernels, PointsTogetherAreAskedAsOneByOne) {
   Random random(23);
   for (int round = 0; round < 1000; ++round) {
-    const Table table = make_table(random);
+    const std::vector<FacePlanes> table = make_table(random);
     const std::size_t count = static_cast<std::size_t>(random.between(0, static_cast<int>(kChunk)));
     std::vector<std::vector<std::uint32_t>> lists(count);
     std::vector<ListPoint> points(count);
@@ -187,11 +179,11 @@ TEST_P(FaceKernels, PointsTogetherAreAskedAsOneByOne) {
       ids[i] = lists[i].data();
       counts[i] = static_cast<std::uint32_t>(lists[i].size());
       std::vector<std::uint32_t> undecided;
-      const BlockWalk one = walk(table.view(), lists[i], points[i], 0xffffffffu, undecided);
+      const BlockWalk one = walk(table, lists[i], points[i], 0xffffffffu, undecided);
       truth[i] = one.blocked ? kYes : undecided.empty() ? kNo : kUndecided;
       if (truth[i] != kUndecided) decided += one.tested - one.undecided;
     }
-    ASSERT_EQ(find_blockers(table.view(), ids.data(), counts.data(), points.data(), count, verdicts.data()), decided);
+    ASSERT_EQ(find_blockers(table.data(), ids.data(), counts.data(), points.data(), count, verdicts.data()), decided);
     ASSERT_EQ(verdicts, truth);
   }
 }

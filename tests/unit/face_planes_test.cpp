@@ -67,7 +67,7 @@ TEST(FacePlanes, FilterNeverContradictsTheExactSigns) {
       }
       std::uint32_t undecided;
       const facemap::simd::ListPoint asked{{D[0], D[1], D[2]}, bound, INFINITY};
-      const auto walk = facemap::simd::find_blocker(planes.table(), &id, 1, asked, 0xffffffffu, &undecided);
+      const auto walk = facemap::simd::find_blocker(planes.planes(), &id, 1, asked, 0xffffffffu, &undecided);
       if (walk.undecided == 0) {
         ASSERT_EQ(walk.blocked, facemap::blocks(face, s, O, given)) << "scale " << scale;
       }
@@ -139,7 +139,7 @@ TEST(FacePlanes, NearestIsALowerBoundOfTheDistance) {
       for (int i = 0; i < 30; ++i) {
         const double u = random.unit(), v = random.unit() * (1 - u);
         const DVector p = DVector(f[0]) * (1 - u - v) + DVector(f[1]) * u + DVector(f[2]) * v;
-        ASSERT_LE(planes.nearest()[id], length(p - DVector(O)) * planes.scale());
+        ASSERT_LE(planes.nearest(id), length(p - DVector(O)) * planes.scale());
       }
     }
   }

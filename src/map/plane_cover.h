@@ -1,0 +1,44 @@
+#pragma once
+
+#include <facemap/projection.h>
+#include <facemap/scene.h>
+#include <facemap/space_vector.h>
+
+#include <vector>
+
+#include "map/cover.h"
+#include "map/face_planes.h"
+#include "map/texel_box.h"
+
+namespace facemap {
+
+/// The builder `cover` for plane projections, where a face well in front of the map is a PlaneFace.
+class PlaneCover {
+ public:
+  PlaneCover(const Scene& scene, const SpaceVector& frame, const Projection& projection, const FacePlanesTable& planes,
+             Coverage& out);
+
+  /// Adds to the cuts or to the entries what face `id`, which has a side, gives to them. False if it is not well in
+  /// front of the map.
+  bool add(std::uint32_t id, Pass pass);
+
+ private:
+  struct Image;
+
+  void project_vertices();
+  void cut(std::uint32_t id, const Image& image);
+  void enter(std::uint32_t id, const Image& image);
+  std::size_t row_of(int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(projection_.width());
+  }
+
+  const Scene& scene_;
+  const SpaceVector& frame_;
+  const Projection& projection_;
+  const FacePlanesTable& planes_;
+  Coverage& out_;
+  double margin_;                 // of map points, texels
+  std::vector<MapPoint> points_;  // of vertices; infinite for those not well in front
+};
+
+}  // namespace facemap
