@@ -124,12 +124,12 @@ void expect_equal(const SeenPoints& a, const SeenPoints& b) {
 void expect_same_for_all_targets_and_threads(const Scene& scene, const Picture& picture,
                                              const std::vector<Vector>& lights, const SeenPoints& expected) {
   const simd::Target before = simd::active_target();
+  int threads = 1;
   for (const simd::Target target : simd::supported_targets()) {
-    SCOPED_TRACE(simd::name_of(target));
+    SCOPED_TRACE(std::string(simd::name_of(target)) + ", " + std::to_string(threads) + " threads");
     simd::set_active_target(target);
-    for (int threads = 1; threads <= 3; ++threads) {
-      expect_equal(find_seen_points(scene, picture.grid, picture.nearest, lights, Executor(threads)), expected);
-    }
+    expect_equal(find_seen_points(scene, picture.grid, picture.nearest, lights, Executor(threads)), expected);
+    threads = threads % 3 + 1;
   }
   simd::set_active_target(before);
 }
@@ -198,7 +198,7 @@ TEST(SeenPoints, DirectionsAreThoseOfTheGrid) {
 }
 
 TEST(SeenPoints, AreExactInAwkwardScenes) {
-  for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const TestScene made = make_any_scene(random, 60);
