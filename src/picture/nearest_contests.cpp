@@ -107,16 +107,17 @@ class Judge {
 
 }  // namespace
 
-void resolve_contests(const Scene& scene, const SampleGrid& grid, const RasterPlace& place,
-                      const simd::RasterTarget& target, std::vector<std::uint32_t>& loose, Counters* counters) {
+std::size_t resolve_contests(const Scene& scene, const SampleGrid& grid, const RasterPlace& place,
+                             const simd::RasterTarget& target, std::vector<std::uint32_t>& loose, Counters* counters) {
   simd::Contests& contests = *target.contests;
   std::erase_if(contests,
                 [&](const simd::Contest& c) { return c.largest_w < target.w[c.sample] * simd::kSurelyBehind; });
-  if (contests.empty()) return;
+  if (contests.empty()) return 0;
   sort_by_sample(contests);
   Judge judge(scene, grid.frame.position(), counters);
   simd::Contests faces;
-  for (std::size_t i = 0; i < contests.size();) {
+  std::size_t contested = 0;
+  for (std::size_t i = 0; i < contests.size(); ++contested) {
     const std::uint32_t sample = contests[i].sample;
     faces.clear();
     for (; i < contests.size() && contests[i].sample == sample; ++i) faces.push_back(contests[i]);
@@ -132,6 +133,7 @@ void resolve_contests(const Scene& scene, const SampleGrid& grid, const RasterPl
     loose.push_back(static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(grid.columns()) +
                     static_cast<std::uint32_t>(column));
   }
+  return contested;
 }
 
 }  // namespace facemap

@@ -18,8 +18,8 @@ struct RasterPlace {
 
 /// Decides the contests of a raster exactly and sorts them. Afterwards target.faces holds the nearest faces of all its
 /// samples; the contested ones whose hit is tied or not strictly inside are appended to `loose`, by their numbers in
-/// the picture.
-void resolve_contests(const Scene& scene, const SampleGrid& grid, const RasterPlace& place,
-                      const simd::RasterTarget& target, std::vector<std::uint32_t>& loose, Counters* counters);
+/// the picture. Returns how many samples were contested.
+std::size_t resolve_contests(const Scene& scene, const SampleGrid& grid, const RasterPlace& place,
+                             const simd::RasterTarget& target, std::vector<std::uint32_t>& loose, Counters* counters);
 
 }  // namespace facemap

@@ -19,7 +19,8 @@ struct NearestFaces {
 };
 
 /// Draws the faces over all samples at once, the transposed way: no list of faces is made. Exact: the faces and
-/// sides are those of Camera::nearest.
+/// sides are those of Camera::nearest. In `counters`, by_float is the samples that float32 decided; the others count
+/// each test of a face.
 NearestFaces find_nearest_faces(const Scene& scene, const SampleGrid& grid, const Executor& executor,
                                 Counters* counters = nullptr);
 

@@ -1,12 +1,13 @@
 #include "picture/nearest_raster.h"
 
 #include <algorithm>
-#include <memory>
+#include <vector>
 
 #include "map/face_planes.h"
 #include "math/exact_sign.h"
 #include "picture/nearest_contests.h"
 #include "picture/nearest_queues.h"
+#include "picture/pages.h"
 #include "scene/reserve_pages.h"
 #include "simd/nearest_draw.h"
 
@@ -24,16 +25,19 @@ constexpr std::size_t kLeastVertices = 1 << 14;  // of a task
 class PlaneRaster {
  public:
   PlaneRaster(const Scene& scene, const SampleGrid& grid, const PlaneView& view, const Executor& executor)
-      : scene_(scene), grid_(grid), view_(view), executor_(executor) {
+      : scene_(scene),
+        grid_(grid),
+        view_(view),
+        executor_(executor),
+        points_(2 * (scene.mesh().positions.size() + simd::kVertexRoom)),
+        w_(grid.count()) {
     const Mesh& mesh = scene.mesh();
     source_ = {mesh.triangles.data()->data(), &mesh.positions.data()->x};
-    points_ = std::make_unique_for_overwrite<float[]>(2 * (mesh.positions.size() + simd::kVertexRoom));
-    reserve_pages(w_, grid.count());
     reserve_pages(nearest_.faces, grid.count());
   }
 
   NearestFaces run(Counters* counters) {
-    w_.assign(grid_.count(), 0);
+    std::fill_n(w_.data(), grid_.count(), 0.0f);
     nearest_.faces.assign(grid_.count(), kNoFace);
     project();
     if (executor_.threads() == 1) {
@@ -51,24 +55,25 @@ class PlaneRaster {
     simd::Contests contests;
     std::vector<std::uint32_t> loose;
     Counters counters;
+    std::size_t contested = 0;
   };
 
   void project() {
     for_ranges(executor_, scene_.mesh().positions.size(), kLeastVertices,
                [&](std::size_t first, std::size_t last, int) {
                  simd::project_vertices(source_.positions + 3 * first, last - first, view_.vertices,
-                                        points_.get() + 2 * first);
+                                        points_.data() + 2 * first);
                });
   }
 
   void find_boxes(std::size_t first, BoxQueues& queues) const {
     const std::size_t count = std::min(kChunk, scene_.face_count() - first);
-    simd::find_boxes(source_.triangles, first, count, points_.get(), view_.boxes, queues.fresh());
+    simd::find_boxes(source_.triangles, first, count, points_.data(), view_.boxes, queues.fresh());
     queues.drop_odd_faces(scene_);
   }
 
   void draw_all_at_once() {
-    bands_.push_back({0, grid_.rows() - 1, {}, {}, {}});
+    bands_.push_back({0, grid_.rows() - 1, {}, {}, {}, 0});
     BoxQueues queues(kChunk);
     for (std::size_t first = 0; first < scene_.face_count(); first += kChunk) {
       find_boxes(first, queues);
@@ -87,7 +92,7 @@ class PlaneRaster {
     const int rows = grid_.rows(), count = std::min(rows, kBandsPerThread * executor_.threads());
     for (int i = 0; i < count; ++i) {
       const auto row = [&](int k) { return static_cast<int>(static_cast<std::int64_t>(rows) * k / count); };
-      bands_.push_back({row(i), row(i + 1) - 1, {}, {}, {}});
+      bands_.push_back({row(i), row(i + 1) - 1, {}, {}, {}, 0});
     }
     executor_.for_each(bands_.size(), [&](std::size_t i, int) { draw_band(waiting, bands_[i]); });
   }
@@ -163,9 +168,11 @@ class PlaneRaster {
   void finish(Counters* counters) {
     executor_.for_each(bands_.size(), [&](std::size_t i, int) {
       Band& band = bands_[i];
-      resolve_contests(scene_, grid_, {}, target(band), band.loose, &band.counters);
+      band.contested = resolve_contests(scene_, grid_, {}, target(band), band.loose, &band.counters);
     });
+    if (counters != nullptr) counters->by_float += grid_.count();
     for (const Band& band : bands_) {
+      if (counters != nullptr) counters->by_float -= band.contested;
       nearest_.loose.insert(nearest_.loose.end(), band.loose.begin(), band.loose.end());
       if (counters != nullptr) *counters += band.counters;
     }
@@ -175,9 +182,8 @@ class PlaneRaster {
   const SampleGrid& grid_;
   const PlaneView& view_;
   const Executor& executor_;
+  Pages<float> points_, w_;
   simd::FaceSource source_;
-  std::unique_ptr<float[]> points_;
-  std::vector<float> w_;
   NearestFaces nearest_;
   std::vector<Band> bands_;
 };

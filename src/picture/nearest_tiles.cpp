@@ -8,6 +8,7 @@
 #include "picture/nearest_contests.h"
 #include "picture/nearest_queues.h"
 #include "picture/nearest_surface.h"
+#include "picture/pages.h"
 #include "scene/reserve_pages.h"
 
 namespace facemap {
@@ -70,7 +71,9 @@ class TileRaster {
       for (const TileFace* f = first; f != last; ++f) add(*f);
       for (int c = 0; c <= kClasses; ++c) flush(c);
     }
-    resolve_contests(scene_, grid_, {tile.first_column, tile.first_row}, target(), loose, &counters);
+    const std::size_t contested =
+        resolve_contests(scene_, grid_, {tile.first_column, tile.first_row}, target(), loose, &counters);
+    counters.by_float += static_cast<std::size_t>(tile.rows) * static_cast<std::size_t>(tile.columns) - contested;
     for (int row = 0; row < tile.rows; ++row) {
       const auto at = static_cast<std::size_t>(tile.first_row + row) * static_cast<std::size_t>(grid_.columns()) +
                       static_cast<std::size_t>(tile.first_column);
@@ -136,17 +139,22 @@ class TileRaster {
 class SurfaceRaster {
  public:
   SurfaceRaster(const Scene& scene, const SampleGrid& grid, const Executor& executor)
-      : scene_(scene), grid_(grid), executor_(executor), view_(scene, grid), caps_(view_, grid), rays_(grid) {
+      : scene_(scene),
+        grid_(grid),
+        executor_(executor),
+        view_(scene, grid),
+        caps_(view_, grid),
+        rays_(grid),
+        points_(2 * (scene.mesh().positions.size() + simd::kVertexRoom)) {
     const Mesh& mesh = scene.mesh();
     source_ = {mesh.triangles.data()->data(), &mesh.positions.data()->x};
-    points_ = std::make_unique_for_overwrite<float[]>(2 * (mesh.positions.size() + simd::kVertexRoom));
   }
 
   NearestFaces run(Counters* counters) {
     for_ranges(executor_, scene_.mesh().positions.size(), kLeastVertices,
                [&](std::size_t first, std::size_t last, int) {
                  simd::project_vertices_surface(source_.positions + 3 * first, last - first, view_.vertices,
-                                                points_.get() + 2 * first);
+                                                points_.data() + 2 * first);
                });
     deal_all();
     sort_by_tile();
@@ -165,7 +173,7 @@ class SurfaceRaster {
       std::vector<std::uint32_t> tiles(caps_.caps().count + simd::kBlockFaces);
       const std::size_t end = std::min(count, (i + 1) * least);
       for (std::size_t first = i * least; first < end; first += kChunk) {
-        simd::find_boxes(source_.triangles, first, std::min(kChunk, end - first), points_.get(), view_.boxes,
+        simd::find_boxes(source_.triangles, first, std::min(kChunk, end - first), points_.data(), view_.boxes,
                          queues.fresh());
         queues.drop_odd_faces(scene_);
         for (int q = 0; q < BoxQueues::kQueues; ++q) deal(queues[q], tiles, dealt_[i]);
@@ -258,8 +266,8 @@ class SurfaceRaster {
   SurfaceView view_;
   SurfaceCaps caps_;
   RayTable rays_;
+  Pages<float> points_;
   simd::FaceSource source_;
-  std::unique_ptr<float[]> points_;
   std::vector<std::vector<DealtFace>> dealt_;
   std::vector<std::size_t> starts_;
   std::unique_ptr<TileFace[]> faces_;
