@@ -1,7 +1,9 @@
 #include "hit_picture.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <future>
 #include <string>
 
 #include "digits.h"
@@ -36,6 +38,13 @@ std::vector<int> legend_numbers(int most) {
   return numbers;
 }
 
+void count_row(const Camera& map, int y, int* hits) {
+  for (int x = 0; x < map.width(); ++x) {
+    const Vector direction = map.direction_through({x + 0.5, y + 0.5});
+    hits[x] = direction == Vector(0) ? kNoDirection : map.count_hits(direction);
+  }
+}
+
 void draw_legend(Image& image, int top, int scale, int most) {
   const std::vector<int> numbers = legend_numbers(most);
   const int step = image.width / static_cast<int>(numbers.size());
@@ -51,15 +60,17 @@ void draw_legend(Image& image, int top, int scale, int most) {
 
 }  // namespace
 
-std::vector<int> count_hits_by_texel(const Camera& map) {
-  std::vector<int> hits;
-  hits.reserve(static_cast<std::size_t>(map.width()) * static_cast<std::size_t>(map.height()));
-  for (int y = 0; y < map.height(); ++y) {
-    for (int x = 0; x < map.width(); ++x) {
-      const Vector direction = map.direction_through({x + 0.5, y + 0.5});
-      hits.push_back(direction == Vector(0) ? kNoDirection : map.count_hits(direction));
-    }
-  }
+std::vector<int> count_hits_by_texel(const Camera& map, int threads) {
+  const auto width = static_cast<std::size_t>(map.width());
+  std::vector<int> hits(width * static_cast<std::size_t>(map.height()));
+  std::atomic<int> next_row = 0;
+  const auto count_rows = [&] {
+    for (int y = 0; (y = next_row++) < map.height();) count_row(map, y, &hits[static_cast<std::size_t>(y) * width]);
+  };
+  std::vector<std::future<void>> others;
+  for (int i = 1; i < threads; ++i) others.push_back(std::async(std::launch::async, count_rows));
+  count_rows();
+  for (std::future<void>& other : others) other.get();
   return hits;
 }
 

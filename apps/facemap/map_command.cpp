@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <thread>
 
 #include "commands.h"
 #include "hit_picture.h"
@@ -24,6 +25,7 @@ struct MapArguments {
   std::optional<Vector> at, look_at;
   double field_angle = parse_degrees("360");
   Builder builder = Builder::Cover;
+  int threads = 0;  ///< 0: as many as there are processors
   bool quiet = false;
 };
 
@@ -33,11 +35,15 @@ SpaceVector frame_of(const MapArguments& arguments, const Scene& scene) {
   return SpaceVector::looking_along(*arguments.at, sight == DVector(0) ? DVector(0, 0, -1) : sight);
 }
 
+int thread_count(int wanted) {
+  return wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
 void draw_map(const MapArguments& arguments) {
   if (arguments.model.empty()) throw UsageError("no model is given");
   if (!arguments.at) throw UsageError("no place is given: add --at X,Y,Z");
   check_png_output(arguments.output, arguments.model);
-  const Scene scene = load_model(arguments.model, arguments.quiet);
+  const Scene scene = load_model(arguments.model, arguments.quiet, arguments.threads);
 
   Camera::Options options;
   options.field_angle = arguments.field_angle;
@@ -46,12 +52,12 @@ void draw_map(const MapArguments& arguments) {
   options.builder = arguments.builder;
   options.keep_all = true;
   const Camera map(scene, frame_of(arguments, scene), options);
-  const std::vector<int> hits = count_hits_by_texel(map);
+  const std::vector<int> hits = count_hits_by_texel(map, thread_count(arguments.threads));
   const Image image = hit_picture(hits, options.width, options.height);
   if (is_standard_output(arguments.output)) {
-    write_to_standard_output(encode_png(image));
+    write_to_standard_output(encode_png(image, arguments.threads));
   } else {
-    write_whole([&] { write_png(image, arguments.output); });
+    write_whole([&] { write_png(image, arguments.output, arguments.threads); });
   }
   if (!arguments.quiet) {
     std::cerr << "facemap: map: " << map.entry_count() << " entries, " << map.memory_bytes() << " bytes, at most "
@@ -83,6 +89,7 @@ Command map_command() {
        [&a](const std::string& text) {
          a.builder = parse_choice(text, {"cover", "fill"}) ? Builder::Fill : Builder::Cover;
        }},
+      {"--threads", "N", "0", "threads at work; 0: as many as there are processors", into(a.threads, parse_threads)},
       {"-q,--quiet", "", "", "no warnings, no counts", [&a](const std::string&) { a.quiet = true; }},
   };
   command.examples = {

@@ -11,7 +11,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMaxThreads = 1024;
 constexpr int kMaxFrames = 100'000;
 
 void add_plane(FrameFiles& files, const std::string& text) {
@@ -92,7 +91,7 @@ std::vector<Option> quality_options(RenderArguments& a) {
 std::vector<Option> work_options(RenderArguments& a) {
   return {
       {"--threads", "N", "0", "threads at work; 0: as many as there are processors",
-       into(a.options.threads, [](const std::string& text) { return parse_whole_number(text, 0, kMaxThreads); })},
+       into(a.options.threads, parse_threads)},
       {"--strategy", "KIND", "auto",
        "lists: the paper's, a map of faces for each light; transposed: the faces run over a map of the points in "
        "sight; "

@@ -89,6 +89,11 @@ int parse_whole_number(const std::string& text, int least, int most) {
   return number;
 }
 
+int parse_threads(const std::string& text) {
+  constexpr int kMostThreads = 1024;
+  return parse_whole_number(text, 0, kMostThreads);
+}
+
 std::size_t parse_memory(const std::string& text) {
   constexpr std::string_view kUnits = "KMGT";
   constexpr std::size_t kMost = std::size_t{1} << 50;

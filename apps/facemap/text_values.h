@@ -19,6 +19,9 @@ int parse_whole_number(const std::string& text, int least, int most);
 /// Bytes: "1048576", "512M", "2G" (K, M, G and T are powers of 1024).
 std::size_t parse_memory(const std::string& text);
 
+/// How many threads, 0 to 1024.
+int parse_threads(const std::string& text);
+
 /// Degrees, as radians.
 double parse_degrees(const std::string& text);
 

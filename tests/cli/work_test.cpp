@@ -25,6 +25,15 @@ TEST_F(Program, ThreadsStrategyAndMemoryLeaveThePictureAsItIs) {
   }
 }
 
+TEST_F(Program, ThreadsLeaveAMapAsItIs) {
+  const std::string map = "map cube.obj --at 0.5,0.25,3 --size 80x60 -q -o ";
+  ASSERT_EQ(run(map + "a.png --threads 1").exit_code, 0);
+  for (const char* threads : {"0", "2", "7"}) {
+    ASSERT_EQ(run(map + "b.png --threads " + threads).exit_code, 0) << threads;
+    EXPECT_EQ(read_file("b.png"), read_file("a.png")) << threads;
+  }
+}
+
 TEST_F(Program, StatisticsSayHowItWasDone) {
   for (const char* strategy : {"lists", "transposed"}) {
     const std::string out =
