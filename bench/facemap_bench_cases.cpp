@@ -34,7 +34,11 @@ std::filesystem::path model_file(const std::string& name) {
   return models_folder() / "scenes" / name / (name == "nefertiti" ? "nefertiti-lowres.obj" : name + ".obj");
 }
 
-Model read_model(const std::filesystem::path& path) { return {OBJ::load(path).mesh(), View(), {}}; }
+Model read_model(const std::filesystem::path& path) {
+  Mesh mesh = OBJ::load(path).mesh();
+  mesh.triangle_materials.clear();  // nothing is shaded
+  return {std::move(mesh), View(), {}};
+}
 
 Model generate_model(const std::string& name) {
   const std::size_t at = name.find('@');
