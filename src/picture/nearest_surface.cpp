@@ -56,7 +56,7 @@ void set_errors(double f, double reach, double shift, simd::PlaneFrame& frame) {
 DVector centre_direction(const SampleGrid& grid, const SurfaceTile& tile) {
   const Projection& projection = grid.projection;
   double x = (tile.first_column + tile.columns * 0.5) / grid.per_side - projection.width() * 0.5;
-  double y = (tile.first_row + tile.rows * 0.5) / grid.per_side - projection.height() * 0.5;
+  double y = (grid.first_row + tile.first_row + tile.rows * 0.5) / grid.per_side - projection.height() * 0.5;
   const double largest = elementary::kPi / projection.texel_angle() * (1 - 0x1p-40), r = std::sqrt(x * x + y * y);
   if (r > largest) {
     x *= largest / r;
@@ -68,7 +68,7 @@ DVector centre_direction(const SampleGrid& grid, const SurfaceTile& tile) {
 }  // namespace
 
 SurfaceView::SurfaceView(const Scene& scene, const SampleGrid& grid) {
-  const double half_columns = grid.columns() * 0.5, half_rows = grid.rows() * 0.5;
+  const double half_columns = grid.columns() * 0.5, half_rows = grid.rows_of_picture() * 0.5;
   sample_angle = grid.projection.texel_angle() / grid.per_side;
   const double f = 1 / sample_angle;
   const SpaceVector& frame = grid.frame;
@@ -104,7 +104,7 @@ SurfaceView::SurfaceView(const Scene& scene, const SampleGrid& grid) {
   v.slack_z = has_pyramid ? float_above(16 * kFloatHalfUlp) : kNever;
 
   boxes.first_column = static_cast<float>(0.5 - half_columns);
-  boxes.first_row = static_cast<float>(0.5 - half_rows);
+  boxes.first_row = static_cast<float>(grid.first_row + 0.5 - half_rows);
   const double angle_error = kDirectionRoundings * stretch + kPointRoundings * farthest + simd::kAngleError;
   boxes.margin =
       float_above(angle_error * f + 16 * kFloatHalfUlp * (half_columns + half_rows + farthest * f) + 0x1p-20);
@@ -124,9 +124,9 @@ SurfaceTile tile_of(const SurfaceView& view, const SampleGrid& grid, std::size_t
   const int x = static_cast<int>(tile % columns) * view.tile_side,
             y = static_cast<int>(tile / columns) * view.tile_side;
   SurfaceTile t = {x, y, std::min(view.tile_side, grid.columns() - x), std::min(view.tile_side, grid.rows() - y)};
-  const double half_columns = grid.columns() * 0.5, half_rows = grid.rows() * 0.5;
+  const double half_columns = grid.columns() * 0.5, half_rows = grid.rows_of_picture() * 0.5;
   const double rim = elementary::kPi / view.sample_angle, slack = 1;  // samples
-  const double u0 = x - half_columns, u1 = u0 + t.columns, v0 = y - half_rows, v1 = v0 + t.rows;
+  const double u0 = x - half_columns, u1 = u0 + t.columns, v0 = grid.first_row + y - half_rows, v1 = v0 + t.rows;
   const auto length = [](double u, double v) { return std::sqrt(u * u + v * v); };
   t.is_whole = length(std::max(-u0, u1), std::max(-v0, v1)) + slack < rim;
   t.is_empty = length(std::max({u0, -u1, 0.0}), std::max({v0, -v1, 0.0})) - slack > rim;

@@ -5,18 +5,23 @@
 
 namespace facemap {
 
-/// The fixed rays of a picture: per_side x per_side samples in each pixel, numbered row by row over the whole picture.
+/// The fixed rays of a picture, or of some rows of it: per_side x per_side samples in each pixel, numbered row by row.
 /// Each ray's direction is a float32 vector and exact input from there on.
 struct SampleGrid {
   SpaceVector frame;  ///< position and axes of the camera
   Projection projection;
   int per_side = 1;
+  int first_row = 0;  ///< of the picture's rows of samples: the grid begins here
+  int row_count = 0;  ///< rows of the grid; 0: to the picture's end
 
   int columns() const { return projection.width() * per_side; }
-  int rows() const { return projection.height() * per_side; }
+  int rows_of_picture() const { return projection.height() * per_side; }
+  int rows() const { return row_count > 0 ? row_count : rows_of_picture() - first_row; }
   std::size_t count() const { return static_cast<std::size_t>(columns()) * static_cast<std::size_t>(rows()); }
 
-  MapPoint map_point(int column, int row) const {
+  /// `row` counts from the grid's first.
+  MapPoint map_point(int column, int grid_row) const {
+    const int row = first_row + grid_row;
     return {column / per_side + (column % per_side + 0.5) / per_side,
             row / per_side + (row % per_side + 0.5) / per_side};
   }

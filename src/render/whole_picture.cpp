@@ -1,5 +1,6 @@
 #include "render/whole_picture.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -23,22 +24,41 @@ std::vector<Vector> positions_of(const std::vector<Light>& lights) {
   return positions;
 }
 
+// Bytes that a sample may take while its band is worked on: the camera's raster, its point, and its place about a light
+// in each thread. For sizing bands by Options::map_memory; no bound.
+constexpr std::size_t kBytesPerSample = 40, kBytesPerSampleAndThread = 36;
+constexpr std::size_t kBytesPerFaceAndThread = 12;
+
+// Without a budget a band has at most this many samples: a picture of 2048 x 2048 is one.
+constexpr std::size_t kLargestBand = std::size_t{1} << 22;
+
+constexpr int kFewestRows = 16;  // of a band, unless the picture has fewer
+
 // Masks of points, put where their samples lie.
-std::vector<std::uint8_t> masks_by_sample(const SeenPoints& seen, std::size_t samples) {
+void put_masks(const SeenPoints& seen, std::uint8_t* masks) {
   const std::size_t stride = seen.stride;
-  std::vector<std::uint8_t> masks(samples * stride);
   const std::vector<std::uint32_t>& numbers = seen.points.samples;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     for (std::size_t k = 0; k < stride; ++k) masks[numbers[i] * stride + k] = seen.masks[i * stride + k];
   }
-  return masks;
+}
+
+// Puts what belongs to a band into the plane of the whole picture, or takes it as the whole.
+template <class T>
+void put_band(std::vector<T>&& band, std::size_t first, std::size_t count, std::vector<T>& plane) {
+  if (band.size() == count) {
+    plane = std::move(band);
+    return;
+  }
+  plane.resize(count);
+  std::copy(band.begin(), band.end(), plane.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
 // The mean of each pixel's samples, in the order of rows and columns.
 std::vector<Color> mean_of_samples(const SampleGrid& grid, const std::vector<Color>& colors, const Executor& executor) {
   const auto width = static_cast<std::size_t>(grid.projection.width());
-  const auto height = static_cast<std::size_t>(grid.projection.height());
   const auto per_side = static_cast<std::size_t>(grid.per_side);
+  const std::size_t height = static_cast<std::size_t>(grid.rows()) / per_side;
   const double count = static_cast<double>(per_side * per_side);
   std::vector<Color> means(width * height);
   executor.for_each(height, [&](std::size_t y, int) {
@@ -103,11 +123,36 @@ WholePicture::WholePicture(const Scene& scene, const View& view, const std::vect
   state_.scratch.resize(static_cast<std::size_t>(executor.threads()));
 }
 
-WholePicture::Seen WholePicture::see(int per_side) {
-  const SampleGrid grid{SpaceVector::looking_at(view_.position, view_.look_at, view_.up),
-                        Projection(view_.projection, view_.field_angle, options_.width, options_.height), per_side};
+// Whole pixels stay together.
+std::vector<SampleGrid> WholePicture::bands(int per_side) const {
+  SampleGrid grid{SpaceVector::looking_at(view_.position, view_.look_at, view_.up),
+                  Projection(view_.projection, view_.field_angle, options_.width, options_.height), per_side};
+  std::size_t largest = kLargestBand;
+  if (options_.map_memory != 0) {
+    const auto threads = static_cast<std::size_t>(executor_.threads());
+    const std::size_t for_faces = scene_.mesh().positions.size() * kBytesPerFaceAndThread * threads;
+    const std::size_t left = options_.map_memory - std::min(options_.map_memory, for_faces);
+    largest = std::min(largest, left / (kBytesPerSample + kBytesPerSampleAndThread * threads));
+  }
+  const int all = grid.rows_of_picture();
+  const auto fitting = static_cast<int>(
+      std::min<std::size_t>(largest / static_cast<std::size_t>(grid.columns()), static_cast<std::size_t>(all)));
+  const int rows = std::max(fitting / per_side, (kFewestRows + per_side - 1) / per_side) * per_side;
+  std::vector<SampleGrid> result;
+  for (grid.first_row = 0; grid.first_row < all; grid.first_row += rows) {
+    grid.row_count = std::min(rows, all - grid.first_row);
+    result.push_back(grid);
+  }
+  return result;
+}
+
+void WholePicture::report(double share, const char* phase) {
+  report_((static_cast<double>(bands_done_) + share) / static_cast<double>(band_count_), phase);
+}
+
+WholePicture::Seen WholePicture::see(const SampleGrid& grid) {
   const Stopwatch camera_time;
-  report_(0, "camera map");
+  report(0, "camera map");
   NearestFaces nearest = find_nearest_faces(scene_, grid, executor_, &statistics_.camera_tests);
   statistics_.camera_queries += grid.count();
   SeenPoints seen = find_seen_points(scene_, grid, nearest, positions_of(lights_), executor_);
@@ -117,12 +162,12 @@ WholePicture::Seen WholePicture::see(int per_side) {
 }
 
 void WholePicture::ask_lights(const SampleGrid& grid, SeenPoints& seen) {
-  report_(0.2, "light maps");
+  report(0.2, "light maps");
   const Stopwatch closed_time;
   if (lists_ == nullptr && !state_.closed) state_.closed = std::make_unique<ClosedParts>(scene_, executor_);
   statistics_.light_maps_ms += closed_time.milliseconds();
 
-  report_(0.3, "shade");
+  report(0.3, "shade");
   const Stopwatch light_time;
   MovedPoints moved = find_moved_points(scene_, grid, seen, lights_, options_, executor_);
   for (const std::uint8_t mask : seen.masks) statistics_.light_queries += static_cast<unsigned>(std::popcount(mask));
@@ -134,7 +179,7 @@ void WholePicture::ask_lights(const SampleGrid& grid, SeenPoints& seen) {
   } else {
     const std::vector<Vector> lights = positions_of(lights_);
     const LightWork work{scene_,    lights,         state_.closed.get(),
-                         executor_, state_.scratch, [this](double share) { report_(0.3 + 0.5 * share, "shade"); }};
+                         executor_, state_.scratch, [this](double share) { report(0.3 + 0.5 * share, "shade"); }};
     clear_blocked(work, grid, seen, counters);
     clear_blocked(work, moved.points, moved.positions, seen.stride, moved.masks, counters);
   }
@@ -142,37 +187,70 @@ void WholePicture::ask_lights(const SampleGrid& grid, SeenPoints& seen) {
   statistics_.shade_ms += light_time.milliseconds();
 }
 
-Image WholePicture::look() {
-  Seen seen = see(options_.samples);
+Image WholePicture::empty_image(int per_side) const {
   Image image;
-  image.width = seen.grid.columns();
-  image.height = seen.grid.rows();
+  image.width = options_.width * per_side;
+  image.height = options_.height * per_side;
   image.light_count = static_cast<int>(lights_.size());
-  image.lights = masks_by_sample(seen.points, seen.grid.count());
-  image.ids = std::move(seen.faces);
+  return image;
+}
+
+// The planes that are wanted of what a band sees.
+void WholePicture::put_planes(Seen&& seen, bool ids, bool depths, bool lights, Image& image) const {
+  const std::size_t columns = static_cast<std::size_t>(image.width);
+  const std::size_t count = columns * static_cast<std::size_t>(image.height);
+  const std::size_t first = columns * static_cast<std::size_t>(seen.grid.first_row);
+  if (lights) {
+    image.lights.resize(count * seen.points.stride);
+    put_masks(seen.points, image.lights.data() + first * seen.points.stride);
+  }
+  seen.points = {};
+  if (depths) put_band(depths_of(scene_, seen.grid, seen.faces, executor_), first, count, image.depths);
+  if (ids) put_band(std::move(seen.faces), first, count, image.ids);
+}
+
+Image WholePicture::look() {
+  Image image = empty_image(options_.samples);
+  const std::vector<SampleGrid> grids = bands(options_.samples);
+  band_count_ = grids.size();
+  for (const SampleGrid& grid : grids) {
+    put_planes(see(grid), true, false, true, image);
+    ++bands_done_;
+  }
   return image;
 }
 
 Image WholePicture::paint() {
-  Image image;
-  image.width = options_.width;
-  image.height = options_.height;
-  image.light_count = static_cast<int>(lights_.size());
-  Seen seen = see(options_.samples);
-  const Stopwatch shade_time;
-  report_(0.8, "shade");
-  std::vector<Color> colors(seen.grid.count(), options_.background);
-  shade_points(scene_, seen.grid, seen.points, lights_, options_, executor_, colors);
-  image.pixels = options_.samples == 1 ? std::move(colors) : mean_of_samples(seen.grid, colors, executor_);
-  statistics_.shade_ms += shade_time.milliseconds();
-
-  report_(1, "shade");
+  Image image = empty_image(1);
+  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  const bool wants_planes = options_.want_ids || options_.want_depths || options_.want_lights;
   // Planes always hold the ray through the pixel's centre.
-  if (!options_.want_ids && !options_.want_depths && !options_.want_lights) return image;
-  if (options_.samples != 1) seen = see(1);
-  if (options_.want_depths) image.depths = depths_of(scene_, seen.grid, seen.faces, executor_);
-  if (options_.want_lights) image.lights = masks_by_sample(seen.points, seen.grid.count());
-  if (options_.want_ids) image.ids = std::move(seen.faces);
+  const bool centres_are_sampled = options_.samples == 1;
+  const std::vector<SampleGrid> grids = bands(options_.samples);
+  const std::vector<SampleGrid> centres = wants_planes && !centres_are_sampled ? bands(1) : std::vector<SampleGrid>();
+  band_count_ = grids.size() + centres.size();
+
+  for (const SampleGrid& grid : grids) {
+    Seen seen = see(grid);
+    const Stopwatch shade_time;
+    report(0.8, "shade");
+    std::vector<Color> colors(grid.count(), options_.background);
+    shade_points(scene_, grid, seen.points, lights_, options_, executor_, colors);
+    if (!centres_are_sampled) colors = mean_of_samples(grid, colors, executor_);
+    put_band(std::move(colors),
+             static_cast<std::size_t>(grid.first_row / options_.samples) * static_cast<std::size_t>(image.width),
+             pixels, image.pixels);
+    if (wants_planes && centres_are_sampled) {
+      put_planes(std::move(seen), options_.want_ids, options_.want_depths, options_.want_lights, image);
+    }
+    statistics_.shade_ms += shade_time.milliseconds();
+    ++bands_done_;
+  }
+  for (const SampleGrid& grid : centres) {
+    put_planes(see(grid), options_.want_ids, options_.want_depths, options_.want_lights, image);
+    ++bands_done_;
+  }
+  report_(1, "shade");
   return image;
 }
 

@@ -19,8 +19,8 @@ struct TransposedState {
   std::vector<ShadowScratch> scratch;   ///< one a worker
 };
 
-/// All samples of a picture at once: the camera's faces by the transposed way, the lights' by either. Gives the planes
-/// and colours that Painter gives.
+/// All samples of a picture at once, or of bands of its rows: the camera's faces by the transposed way, the lights' by
+/// either. Gives the planes and colours that Painter gives. Call paint() or look() once.
 class WholePicture {
  public:
   /// Called now and then with the fraction done and the phase's name; it may throw.
@@ -39,8 +39,12 @@ class WholePicture {
 
  private:
   struct Seen;
-  Seen see(int per_side);
+  std::vector<SampleGrid> bands(int per_side) const;
+  Seen see(const SampleGrid& grid);
   void ask_lights(const SampleGrid& grid, SeenPoints& seen);
+  Image empty_image(int per_side) const;
+  void put_planes(Seen&& seen, bool ids, bool depths, bool lights, Image& image) const;
+  void report(double share, const char* phase);
 
   const Scene& scene_;
   const View& view_;
@@ -51,6 +55,7 @@ class WholePicture {
   const std::vector<PointLight>* lists_;
   Renderer::Statistics& statistics_;
   Report report_;
+  std::size_t bands_done_ = 0, band_count_ = 1;
 };
 
 }  // namespace facemap

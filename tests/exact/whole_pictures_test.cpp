@@ -77,6 +77,7 @@ class Session {
     options.height = random_.between(1, 40);
     options.samples = random_.chance(0.2) ? random_.between(2, 3) : 1;
     options.threads = random_.between(1, 3);
+    if (random_.chance(0.3)) options.map_memory = 1;  // bands of few rows
     options.strategy = random_.chance(0.8) ? Renderer::Strategy::Transposed : Renderer::Strategy::Lists;
     const std::vector<simd::Target> targets = simd::supported_targets();
     simd::set_active_target(targets[static_cast<std::size_t>(random_.below(static_cast<int>(targets.size())))]);
