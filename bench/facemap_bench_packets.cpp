@@ -102,7 +102,7 @@ void TileTracer::see_packets(RTCScene scene, const float* directions, const Vect
       packet.ray.tfar[i] = kInfinity;
       packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-      valid[i] = (dx != 0) | (dy != 0) | (dz != 0) ? -1 : 0;
+      valid[i] = -int((dx != 0) | (dy != 0) | (dz != 0));
     }
     Packet::intersect(valid, scene, &context, &packet);
     for (int i = 0; i < kWidth; ++i) {

@@ -17,5 +17,5 @@ forbid 'src/math src/simd src/parallel' '(scene|map|picture|render)'
 forbid 'src/scene' '(map|picture|render)'
 forbid 'src/map' '(picture|render)'
 forbid 'src/picture' 'render'
-forbid 'apps examples' '(math|simd|parallel|scene|map|picture|render)'
+forbid 'apps examples bench/facemap_bench*' '(math|simd|parallel|scene|map|picture|render)'
 exit $failed
