@@ -1,9 +1,8 @@
-// What the camera sees, the transposed way: whole pictures, then each kernel by itself.
+// What the camera sees, the transposed way: whole pictures of the made-up view, by projection and number of threads.
 //   nearest_faces [FILE.obj ...] [Google Benchmark's options]
 #include "picture/nearest_faces.h"
 
 #include <benchmark/benchmark.h>
-#include <facemap/generators.h>
 #include <facemap/renderer.h>
 
 #include <memory>

@@ -102,7 +102,7 @@ SampleGrid plane_grid(const SpaceVector& frame, double degrees, int width, int h
 
 TEST(NearestFaces, OfRandomScenesAreThoseOfTheCamera) {
   Random random(20260001);
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 250; ++i) {
     const test_scenes::TestScene scene = test_scenes::make_any_scene(random, 120);
     const Vector from = test_scenes::make_origin(scene, random);
     const Vector at = random.chance(0.8) ? scene.centre : test_scenes::make_origin(scene, random);
@@ -123,7 +123,7 @@ SampleGrid surface_grid(const SpaceVector& frame, double degrees, int width, int
 
 TEST(NearestFaces, OfFisheyesAreThoseOfTheCamera) {
   Random random(20260002);
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 250; ++i) {
     const test_scenes::TestScene scene = test_scenes::make_any_scene(random, 120);
     const Vector from = test_scenes::make_origin(scene, random);
     const Vector at = random.chance(0.8) ? scene.centre : test_scenes::make_origin(scene, random);
