@@ -48,6 +48,9 @@ struct RationalPoint {
   }
 };
 
+template <class W, class S>
+RationalPoint(Vector, W, Vec3<S>) -> RationalPoint<W, S>;
+
 /// A float32 point.
 struct FloatPoint {
   Vector anchor;
