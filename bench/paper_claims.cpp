@@ -54,6 +54,7 @@ Picture draw(const Subject& subject, int size, ProjectionKind projection, Builde
   options.width = options.height = size;
   options.builder = builder;
   options.want_ids = options.want_lights = true;
+  options.strategy = Renderer::Strategy::Lists;  // the paper's: whole pictures have another
   View view = subject.view;
   view.projection = projection;
   Renderer renderer(subject.scene, view, subject.lights, options);
@@ -101,11 +102,27 @@ int count_other_lights(const Image& a, const Image& b) {
   return pixels;
 }
 
+Camera make_camera(const Subject& subject) {
+  Camera::Options options;
+  options.width = options.height = kSize;
+  options.field_angle = subject.view.field_angle;
+  const View& view = subject.view;
+  return Camera(subject.scene, SpaceVector::looking_at(view.position, view.look_at, view.up), options);
+}
+
+// A whole picture is seen without a camera's map, so that its rays are asked here.
 void print_few_faces(const Subject& subject, const Picture& picture) {
+  const Camera camera = make_camera(subject);
+  Counters camera_tests;
+  for (int i = 0; i < kSize * kSize; ++i) {
+    camera.nearest(camera.direction_through({i % kSize + 0.5, i / kSize + 0.5}), &camera_tests);
+  }
+  std::size_t bytes = camera.memory_bytes();
+  for (const Light& light : subject.lights) bytes += PointLight(subject.scene, light.position).memory_bytes();
   const Renderer::Statistics& s = picture.statistics;
   std::printf("| %s | %zu | %.2f | %.2f | %.1f |\n", subject.name.c_str(), subject.scene.face_count(),
-              per_query(s.camera_tests, s.camera_queries), per_query(s.light_tests, s.light_queries),
-              static_cast<double>(s.map_bytes) / (1 << 20));
+              per_query(camera_tests, kSize * kSize), per_query(s.light_tests, s.light_queries),
+              static_cast<double>(bytes) / (1 << 20));
 }
 
 void print_times(const Subject& subject, const Renderer::Statistics& s) {
@@ -132,11 +149,7 @@ void print_raster(const Subject& subject) {
 
 // A Camera that kept one face a texel, that of the texel's centre, would answer so many rays wrongly.
 void print_one_face(const Subject& subject) {
-  Camera::Options options;
-  options.width = options.height = kSize;
-  options.field_angle = subject.view.field_angle;
-  const View& view = subject.view;
-  const Camera camera(subject.scene, SpaceVector::looking_at(view.position, view.look_at, view.up), options);
+  const Camera camera = make_camera(subject);
   std::int64_t rays = 0, wrong = 0;
   for (int y = 0; y < kSize; ++y) {
     for (int x = 0; x < kSize; ++x) {

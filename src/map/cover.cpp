@@ -27,11 +27,51 @@ constexpr double kLongestBoxEdge = 0.5;
 // Room that is made beforehand, entries a face.
 constexpr std::size_t kEntriesExpected = 8;
 
+// Projection::local_from_map of texel centres on a surface, where a direction's sine and cosine depend on the distance
+// from the raster's centre alone: each is made once, with the same bits.
+class CentreDirections {
+ public:
+  explicit CentreDirections(const Projection& projection) : projection_(projection) {
+    const auto width = static_cast<std::size_t>(projection.width()),
+               height = static_cast<std::size_t>(projection.height());
+    const bool is_even = width % 2 == 0 && height % 2 == 0;
+    shift_ = is_even ? 3 : 2;
+    const std::size_t count = ((width * width + height * height) >> shift_) + 1;
+    if (projection.kind() == ProjectionKind::Surface && count <= width * height) by_distance_.resize(count);
+  }
+
+  DVector at(int x, int y) {
+    const MapPoint centre(x + 0.5, y + 0.5);
+    if (by_distance_.empty()) return projection_.local_from_map(centre);
+    // Twice the distance from the centre, squared. Odd numbers squared are 1 modulo 8, even ones 0 modulo 4.
+    const std::int64_t dx = 2 * x + 1 - projection_.width(), dy = projection_.height() - 2 * y - 1;
+    Polar& polar = by_distance_[static_cast<std::size_t>(dx * dx + dy * dy) >> shift_];
+    const double across = 0.5 * static_cast<double>(dx), up = 0.5 * static_cast<double>(dy);
+    if (!polar.is_known) polar = polar_of(std::sqrt(across * across + up * up));
+    return {polar.sine_over_r * across, polar.sine_over_r * up, polar.cosine};
+  }
+
+ private:
+  struct Polar {
+    double sine_over_r = 0, cosine = 0;
+    bool is_known = false;
+  };
+
+  Polar polar_of(double r) const {
+    const double beta = r * projection_.texel_angle();
+    return {r == 0 ? 0 : elementary::sin(beta) / r, elementary::cos(beta), true};
+  }
+
+  const Projection& projection_;
+  int shift_;
+  std::vector<Polar> by_distance_;
+};
+
 class ConeCover {
  public:
   ConeCover(const Scene& scene, const SpaceVector& frame, const Projection& projection, const FacePlanesTable& planes,
             Coverage& out)
-      : scene_(scene), frame_(frame), projection_(projection), planes_(planes), out_(out) {
+      : scene_(scene), frame_(frame), projection_(projection), planes_(planes), out_(out), centres_(projection) {
     while (root_size_ < std::max(projection.width(), projection.height())) root_size_ *= 2;
     for (int size = 1; size <= root_size_; size *= 2) radii_.emplace_back(block_cap_radius(projection, size));
     raster_ = {0, 0, projection.width() - 1, projection.height() - 1};
@@ -106,7 +146,7 @@ class ConeCover {
     const bool keeps_all = out_.cuts.empty();
     const float nearest = planes_.nearest(id);
     if (!keeps_all && Texels::is_hidden(nearest, out_.cuts[texel])) return;
-    const DVector c = projection_.local_from_map(centre);
+    const DVector c = centres_.at(x, y);
     if (!cone.may_meet(c, radii_[0])) return;
     if (pass_ != Pass::Cuts) out_.entries.push_back({texel, id, nearest});
     if (pass_ != Pass::Entries && !keeps_all && cone.surely_covers(c, radii_[0])) {
@@ -128,6 +168,7 @@ class ConeCover {
   const Projection& projection_;
   const FacePlanesTable& planes_;
   Coverage& out_;
+  CentreDirections centres_;
   int root_size_ = 1;
   std::vector<Cone::Radius> radii_;  // by level: blocks of 1, 2, 4, ... texels
   TexelBox raster_;
