@@ -35,10 +35,9 @@ namespace {
 // Kernels read this much past the end of `wanted`.
 constexpr std::size_t kPadding = 64;
 
-// Bounds of the error of a point's X, Y and Z, in units of 2^-24 Z, that the filter is told of. The least costs nothing
-// to speak of; points nearer to the light than the greatest allows are asked singly.
+// The least error of a point's X, Y and Z, in units of 2^-24 Z, that the filter is told of: it costs nothing to speak
+// of. Points nearer to the light than the greatest allows are asked singly.
 constexpr double kLeastSlack = 0x1p-4;
-constexpr double kGreatestSlack = 4;
 
 // Points with a lesser Z (the farthest have about 1) are asked singly whatever their error: w stays a normal float.
 constexpr double kLeastZ = 0x1p-60;
@@ -81,7 +80,7 @@ class LightPass {
       size_ += std::fabs(from_light_[k]) + points_.step * std::max(std::fabs(static_cast<double>(wanted.lower[k])),
                                                                    std::fabs(static_cast<double>(wanted.upper[k])));
     }
-    if (const auto frame = frame_towards(light_, box, points_.error)) {
+    if (const auto frame = frame_towards(light_, box, error_of_points())) {
       run_frame(*frame, 1, wanted.count, nearest_of(*frame, box));
     } else {
       run_sides();
@@ -107,6 +106,11 @@ class LightPass {
     }
     return simd::measure_wanted(points_.x.data(), points_.y.data(), points_.z.data(), wanted, count);
   }
+
+  // Twice this, times the largest number in a frame's rows, bounds the error of X, Y and Z: a row is at most sqrt(3)
+  // times as long; its products with the step and the offset are rounded, then three products and three sums: 13
+  // roundings of 2^-53.
+  double error_of_points() const { return points_.error + 0x1p-50 * size_; }
 
   double nearest_of(const simd::ShadowFrame& frame, const OffsetBox& box) const {
     double nearest = 0;
@@ -138,11 +142,9 @@ class LightPass {
   }
 
   void run_frame(const simd::ShadowFrame& frame, std::uint8_t bit, std::size_t wanted, double nearest) {
-    // A row of unit length sqrt(3) `largest` times the point's own error; the matrix and the offset rounded, three
-    // products and three sums: 13 roundings of 2^-53.
-    const double error = frame.largest * (2 * points_.error + 0x1p-49 * size_);
+    const double error = 2 * frame.largest * error_of_points();
     // A little more than the nearest point needs, so that rounding does not leave it out.
-    const double slack = std::clamp(error / nearest * 0x1.01p24, kLeastSlack, kGreatestSlack);
+    const double slack = std::clamp(error / nearest * 0x1.01p24, kLeastSlack, simd::kShadowGreatestSlack);
     simd::PointsToProject from{points_.x.data(),
                                points_.y.data(),
                                points_.z.data(),

@@ -116,8 +116,9 @@ HWY_INLINE VF farthest_point(const FarthestPyramid& pyramid, VI column0, VI colu
 }
 
 // Whether a triangle in front of the light surely runs clockwise on the raster, which is how a face looks that is
-// turned towards the light. Corners within 4 of the middle are off by less than 2^-18, differences too (twice a
-// relative 2^-20), and the two products and their difference by 2^-22 of what the bound holds.
+// turned towards the light. Corners within 1.25 of the middle are off by at most 3.5 * 2^-22 (kShadowMargin), the
+// differences of two by less than 2^-19 with their own rounding; then the area is off by 2^-19 of the sum of their
+// sizes, by twice the square of 2^-19, and by the rounding of two products and their difference. The bound is twice it.
 HWY_INLINE Mask is_entry(const Places& a, const Places& b, const Places& c) {
   const DF d;
   const auto reach = greatest(hn::Max(hn::Abs(a.u), hn::Abs(a.v)), hn::Max(hn::Abs(b.u), hn::Abs(b.v)),
@@ -125,9 +126,9 @@ HWY_INLINE Mask is_entry(const Places& a, const Places& b, const Places& c) {
   const auto bu = hn::Sub(b.u, a.u), bv = hn::Sub(b.v, a.v), cu = hn::Sub(c.u, a.u), cv = hn::Sub(c.v, a.v);
   const auto area = hn::Sub(hn::Mul(bu, cv), hn::Mul(cu, bv));
   const auto sides = hn::Add(hn::Add(hn::Abs(bu), hn::Abs(bv)), hn::Add(hn::Abs(cu), hn::Abs(cv)));
-  const auto error = hn::Mul(sides, hn::Add(hn::Mul(sides, hn::Set(d, 0x1p-20f)), hn::Set(d, 0x1p-16f)));
-  const auto bound = hn::Add(error, hn::Set(d, 0x1p-32f));
-  return hn::And(hn::Lt(area, hn::Neg(bound)), hn::Le(reach, hn::Set(d, 4.0f)));
+  const auto error = hn::Mul(sides, hn::Add(hn::Mul(sides, hn::Set(d, 0x1p-22f)), hn::Set(d, 0x1p-18f)));
+  const auto bound = hn::Add(error, hn::Set(d, 0x1p-36f));
+  return hn::And(hn::Lt(area, hn::Neg(bound)), hn::Le(reach, hn::Set(d, 1.25f)));
 }
 
 struct Box {

@@ -30,10 +30,15 @@ inline constexpr int kSpotRows = 8;
 /// Half a unit in the last place, relative: what one float32 operation may be off.
 inline constexpr double kShadowHalfUlp = 0x1p-24;
 
+/// How far X, Y or Z of a point may be off, relative to Z, in units of 2^-24: points nearer to the light are not
+/// placed.
+inline constexpr double kShadowGreatestSlack = 4;
+
 /// How far (u and v alike, the raster being 2 wide) a point of a face may be outside the box of the face's projected
 /// vertices. A vertex: four roundings (X, Z, the division, the product), 2^-22 of at most 1 where it matters, and
-/// 2^-22 (1 + |u|) for the doubles (kShadowSteepest). A point: two roundings and kLargestSlack more, below 2^-21.
-/// Together below 2^-19.6. A box side beyond the raster's own side is off by more, but only relative to itself.
+/// 2^-22 (1 + |u|) for the doubles (kShadowSteepest): 12 * 2^-24. A point: four roundings, and kShadowGreatestSlack for
+/// X and for Z: 12 * 2^-24. Together below 2^-19; the way to a texel's number is off by 2^-23 at most. A box side
+/// beyond the raster's own side is off by more, but only relative to itself.
 inline constexpr float kShadowMargin = 0x1p-18f;
 
 /// A vertex has a place on the plane only if Z is at least this share of `largest` |p - light|_1: then Z and the
