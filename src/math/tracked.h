@@ -64,8 +64,8 @@ inline Tracked quotient(const Tracked& a, const Tracked& b) {
   // |v - true| <= (|a's error| + |v| |b's error|) / (|b| - |b's error|), and one rounding.
   const double slack = std::fabs(b.value) - b.error;
   if (!(slack > 0)) return {v, HUGE_VAL};
-  return {v, (a.error + std::fabs(v) * b.error) / slack * (1 + Tracked::kInflation) +
-                 std::fabs(v) * Tracked::kHalfUlp + Tracked::kUnderflow};
+  return {v, (a.error + std::fabs(v) * b.error) / slack * (1 + Tracked::kInflation) + std::fabs(v) * Tracked::kHalfUlp +
+                 Tracked::kUnderflow};
 }
 
 }  // namespace facemap
