@@ -90,7 +90,8 @@ std::string setting(const Options& options) {
   const char* compiler = "g++ " __VERSION__;
 #endif
   out << processor << ", " << instruction_set() << ", " << compiler << ", Embree " << RTC_VERSION_STRING << ", "
-      << options.threads << (options.threads == 1 ? " thread" : " threads");
+      << options.threads << (options.threads == 1 ? " thread" : " threads")
+      << (options.cpu_time ? ", processor time on a busy machine" : "");
   return out.str();
 }
 
