@@ -73,7 +73,8 @@ std::optional<simd::ShadowFrame> frame_towards(const Vector& light, const Offset
   const double scale = 1 / farthest;
   const double narrowest = std::max(kNarrowest, error / nearest * kLeastSteps);
   const double widest = std::max(across.half_width(narrowest), along.half_width(narrowest));
-  const double width = across.half_width(kThinnest * widest), height = along.half_width(kThinnest * widest);
+  const double least = std::max(narrowest, kThinnest * widest);
+  const double width = across.half_width(least), height = along.half_width(least);
   return make_frame(light, (right - across.middle() * axis) * (scale / width),
                     (up - along.middle() * axis) * (scale / height), axis * scale);
 }
