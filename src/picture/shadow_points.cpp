@@ -53,71 +53,43 @@ simd::ShadowRaster raster_for(std::size_t points) {
 void ShadowPoints::sort(const simd::PointsToProject& from, std::size_t wanted, std::size_t faces,
                         std::vector<std::uint32_t>& rest) {
   raster_ = raster_for(wanted);
-  make_room(records_, wanted + kPadding);
-  make_room(texels_, wanted + kPadding);
-  make_room(points_, wanted + kPadding);
   has_spots_ = faces > kFacesPerPointForSpots * wanted;
-  if (has_spots_) make_room(spots_, wanted + kPadding);
-  simd::ProjectedPoints to{records_.data(), texels_.data(), points_.data(), has_spots_ ? spots_.data() : nullptr,
-                           &rest};
-  simd::project_points(from, raster_, to);
-  count_ = to.count;
-
-  count_texels();
-  fill_blocks();
+  count_texels(from, rest);
+  fill_blocks(from);
   build_pyramid();
-  if (has_spots_) mark_spots();
 }
 
-void ShadowPoints::mark_spots() {
-  occupied_.assign(texel_count() * simd::kSpotColumns * simd::kSpotRows / 8 + kPadding, 0);
-  std::uint8_t* occupied = occupied_.data();
-  for (std::size_t i = 0; i < count_; ++i) {
-    occupied[spots_[i] / 8] = static_cast<std::uint8_t>(occupied[spots_[i] / 8] | 1u << (spots_[i] % 8));
-  }
-}
-
-void ShadowPoints::count_texels() {
+void ShadowPoints::count_texels(const simd::PointsToProject& from, std::vector<std::uint32_t>& rest) {
   const std::size_t texels = texel_count();
   begins_.assign(texels + 1 + kPadding, 0);
-  std::uint32_t* counts = begins_.data();
-  const std::uint32_t *texel = texels_.data(), *end = texel + count_;
-  while (texel != end) ++counts[*texel++];
+  if (has_spots_) occupied_.assign(texels * simd::kSpotColumns * simd::kSpotRows / 8 + kPadding, 0);
+  std::uint32_t* begins = begins_.data();
+  count_ = simd::count_points(from, raster_, begins, has_spots_ ? occupied_.data() : nullptr, rest);
   std::uint32_t sum = 0;
   for (std::size_t t = 0; t <= texels; ++t) {
-    const std::uint32_t count = begins_[t];
-    begins_[t] = sum;
+    const std::uint32_t count = begins[t];
+    begins[t] = sum;
     sum += count;
   }
 }
 
-void ShadowPoints::fill_blocks() {
+void ShadowPoints::fill_blocks(const simd::PointsToProject& from) {
   block_count_ = (count_ + ShadowBlock::kPoints - 1) / ShadowBlock::kPoints;
   make_room(blocks_, block_count_);
   make_room(farthest_of_block_, block_count_ + kPadding);
+  make_room(point_of_place_, count_);
   blocked_.assign(block_count_ + kPadding, 0);
 
-  auto* records = reinterpret_cast<unsigned char*>(blocks_.data());
-  const auto put = [&](std::size_t place, const simd::ShadowRecord& record) {
-    std::memcpy(records + place * sizeof(record), &record, sizeof(record));
-  };
-  make_room(point_of_place_, count_);
-  // Pointers of its own: the compiler can't know that the vectors stay where they are.
-  std::uint32_t *next = begins_.data(), *point_of_place = point_of_place_.data();
-  const std::uint32_t *texels = texels_.data(), *points = points_.data();
-  const simd::ShadowRecord* from = records_.data();
-  for (std::size_t i = 0, count = count_; i < count; ++i) {
-    const std::uint32_t place = next[texels[i]]++;
-    put(place, from[i]);
-    point_of_place[place] = points[i];
-  }
+  auto* records = reinterpret_cast<std::byte*>(blocks_.data());
+  simd::place_points(from, raster_, begins_.data(), records, point_of_place_.data());
   // Each texel's begin has moved to the next one's.
   std::memmove(begins_.data() + 1, begins_.data(), texel_count() * sizeof(begins_[0]));
   begins_[0] = 0;
 
   // The last block's spare places hold points that every face is behind, and are blocked from the start.
   for (std::size_t place = count_; place < block_count_ * ShadowBlock::kPoints; ++place) {
-    put(place, {0, 0, 0x1p100f, 0});
+    const simd::ShadowRecord behind{0, 0, 0x1p100f, 0};
+    std::memcpy(records + place * sizeof(behind), &behind, sizeof(behind));
     set_blocked(static_cast<std::uint32_t>(place));
   }
   simd::finish_blocks(blocks_.data(), block_count_, farthest_of_block_.data());
@@ -173,9 +145,8 @@ simd::SortedPoints ShadowPoints::sorted() noexcept {
 }
 
 std::size_t ShadowPoints::memory_bytes() const noexcept {
-  return bytes_of(records_) + bytes_of(texels_) + bytes_of(points_) + bytes_of(point_of_place_) + bytes_of(begins_) +
-         bytes_of(blocks_) + bytes_of(farthest_of_block_) + bytes_of(blocked_) + bytes_of(cells_) + bytes_of(spots_) +
-         bytes_of(occupied_);
+  return bytes_of(point_of_place_) + bytes_of(begins_) + bytes_of(blocks_) + bytes_of(farthest_of_block_) +
+         bytes_of(blocked_) + bytes_of(cells_) + bytes_of(occupied_);
 }
 
 }  // namespace facemap

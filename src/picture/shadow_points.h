@@ -41,17 +41,13 @@ class ShadowPoints {
   std::size_t texel_count() const {
     return static_cast<std::size_t>(raster_.columns) * static_cast<std::size_t>(raster_.rows);
   }
-  void count_texels();
-  void fill_blocks();
-  void mark_spots();
+  void count_texels(const simd::PointsToProject& from, std::vector<std::uint32_t>& rest);
+  void fill_blocks(const simd::PointsToProject& from);
   void build_pyramid();
 
   simd::ShadowRaster raster_;
   std::size_t count_ = 0;
   std::size_t block_count_ = 0;
-  std::vector<simd::ShadowRecord> records_;
-  std::vector<std::uint32_t> texels_;
-  std::vector<std::uint32_t> points_;
   std::vector<std::uint32_t> point_of_place_;
   std::vector<std::uint32_t> begins_;  ///< while sorting: the next place of each texel's next point
   std::vector<simd::ShadowBlock> blocks_;
@@ -59,7 +55,6 @@ class ShadowPoints {
   std::vector<std::uint16_t> blocked_;
   std::vector<float> cells_;
   bool has_spots_ = false;
-  std::vector<std::uint32_t> spots_;
   std::vector<std::uint8_t> occupied_;
   simd::FarthestPyramid pyramid_{};
 };

@@ -127,58 +127,112 @@ HWY_INLINE bool is_any_wanted(const std::uint8_t* wanted, std::uint8_t bit) {
   return (all & bit * 0x0101010101010101u) != 0;
 }
 
-void project_points(const PointsToProject& from, const ShadowRaster& raster, ProjectedPoints& to) {
+// A vector of points on the raster.
+struct Placed {
+  hn::Vec<DF> u, v, w;
+  hn::Vec<DU> texel;
+  hn::Mask<DU> is_on, is_rest;
+  unsigned on;  // one bit a lane
+};
+
+// False if none of them is asked about.
+HWY_INLINE bool place_lanes(const PointsToProject& from, const ShadowRaster& raster, const Run& run, std::size_t first,
+                            std::size_t i, Placed& p) {
   const DF d;
   const DU du;
-  const std::size_t lanes = hn::Lanes(d);
-  const auto one = hn::Set(d, 1.0f);
+  const auto bytes = hn::PromoteTo(du, hn::LoadU(DBytes(), from.wanted + first + i));
+  const auto number = hn::Add(hn::Iota(du, 0), hn::Set(du, static_cast<std::uint32_t>(first + i)));
+  const auto is_within = hn::Lt(number, hn::Set(du, static_cast<std::uint32_t>(from.count)));
+  const auto is_wanted = hn::And(hn::TestBit(bytes, hn::Set(du, from.bit)), is_within);
+  if (hn::AllFalse(du, is_wanted)) return false;
+
+  const auto one = hn::Set(d, 1.0f), Z = hn::Load(d, run.Z + i);
+  p.w = hn::Div(one, Z);
+  p.u = hn::Mul(hn::Load(d, run.X + i), p.w);
+  p.v = hn::Mul(hn::Load(d, run.Y + i), p.w);
+  const auto is_inside = hn::And(hn::Le(hn::Max(hn::Abs(p.u), hn::Abs(p.v)), one), hn::Ge(Z, hn::Set(d, from.nearest)));
+  p.is_on = hn::And(is_wanted, hn::RebindMask(du, is_inside));
+  p.is_rest = hn::AndNot(hn::RebindMask(du, is_inside), is_wanted);
+  const auto column = texel_of(p.u, raster.columns), row = texel_of(p.v, raster.rows);
+  p.texel = hn::BitCast(du, hn::Add(hn::Mul(row, hn::Set(DI(), raster.columns)), column));
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(du, p.is_on, bits);
+  p.on = bits[0] | static_cast<unsigned>(bits[1]) << 8;
+  return true;
+}
+
+HWY_INLINE void mark_spots(const Placed& p, const ShadowRaster& raster, std::uint8_t* occupied) {
+  const auto column = texel_of(p.u, raster.columns * kSpotColumns), row = texel_of(p.v, raster.rows * kSpotRows);
+  alignas(64) std::int32_t spots[16];
+  hn::Store(hn::Add(hn::Mul(row, hn::Set(DI(), raster.columns * kSpotColumns)), column), DI(), spots);
+  for (unsigned on = p.on; on != 0; on &= on - 1) {
+    const auto spot = static_cast<std::uint32_t>(spots[__builtin_ctz(on)]);
+    occupied[spot / 8] = static_cast<std::uint8_t>(occupied[spot / 8] | 1u << (spot % 8));
+  }
+}
+
+std::size_t count_points(const PointsToProject& from, const ShadowRaster& raster, std::uint32_t* counts,
+                         std::uint8_t* occupied, std::vector<std::uint32_t>& rest) {
+  const DU du;
+  const std::size_t lanes = hn::Lanes(du);
+  std::size_t count = 0;
   Run run;
+  Placed p;
   for (std::size_t first = 0; first < from.count; first += kRun) {
     if (!is_any_wanted(from.wanted + first, from.bit)) continue;
     transform(from, first, run);
     for (std::size_t i = 0; i < kRun && first + i < from.count; i += lanes) {
-      const auto bytes = hn::PromoteTo(du, hn::LoadU(DBytes(), from.wanted + first + i));
-      const auto number = hn::Add(hn::Iota(du, 0), hn::Set(du, static_cast<std::uint32_t>(first + i)));
-      const auto is_within = hn::Lt(number, hn::Set(du, static_cast<std::uint32_t>(from.count)));
-      const auto is_wanted = hn::And(hn::TestBit(bytes, hn::Set(du, from.bit)), is_within);
-      if (hn::AllFalse(du, is_wanted)) continue;
-
-      const auto Z = hn::Load(d, run.Z + i);
-      const auto w = hn::Div(one, Z);
-      const auto u = hn::Mul(hn::Load(d, run.X + i), w), v = hn::Mul(hn::Load(d, run.Y + i), w);
-      const auto is_inside = hn::And(hn::Le(hn::Max(hn::Abs(u), hn::Abs(v)), one), hn::Ge(Z, hn::Set(d, from.nearest)));
-      const auto is_on = hn::And(is_wanted, hn::RebindMask(du, is_inside));
-      const auto is_rest = hn::AndNot(hn::RebindMask(du, is_inside), is_wanted);
-      if (!hn::AllFalse(du, is_rest)) {
-        const std::size_t before = to.rest->size();
-        to.rest->resize(before + 16);
-        to.rest->resize(before + hn::CompressStore(number, is_rest, du, to.rest->data() + before));
+      if (!place_lanes(from, raster, run, first, i, p)) continue;
+      if (!hn::AllFalse(du, p.is_rest)) {
+        const auto number = hn::Add(hn::Iota(du, 0), hn::Set(du, static_cast<std::uint32_t>(first + i)));
+        const std::size_t before = rest.size();
+        rest.resize(before + 16);
+        rest.resize(before + hn::CompressStore(number, p.is_rest, du, rest.data() + before));
       }
-
-      const auto column = texel_of(u, raster.columns), row = texel_of(v, raster.rows);
-      const auto texel = hn::Add(hn::Mul(row, hn::Set(DI(), raster.columns)), column);
-      if (to.spots != nullptr) {
-        const auto spot_column = texel_of(u, raster.columns * kSpotColumns);
-        const auto spot_row = texel_of(v, raster.rows * kSpotRows);
-        const auto spot = hn::Add(hn::Mul(spot_row, hn::Set(DI(), raster.columns * kSpotColumns)), spot_column);
-        hn::CompressStore(hn::BitCast(du, spot), is_on, du, to.spots + to.count);
+      if (occupied != nullptr) mark_spots(p, raster, occupied);
+      alignas(64) std::uint32_t texels[16];
+      hn::Store(p.texel, du, texels);
+      count += static_cast<unsigned>(__builtin_popcount(p.on));
+      if (hn::AllTrue(du, p.is_on)) {
+        for (std::size_t k = 0; k < lanes; ++k) ++counts[texels[k]];
+      } else {
+        for (unsigned on = p.on; on != 0; on &= on - 1) ++counts[texels[__builtin_ctz(on)]];
       }
-      const auto own_face = hn::BitCast(d, hn::Load(du, run.own_face + i));
-      if (hn::AllTrue(du, is_on)) {
-        hn::StoreInterleaved4(u, v, w, own_face, d, &to.records[to.count].u);
-        hn::StoreU(hn::BitCast(du, texel), du, to.texels + to.count);
-        hn::StoreU(number, du, to.points + to.count);
-        to.count += lanes;
+    }
+  }
+  return count;
+}
+
+void place_points(const PointsToProject& from, const ShadowRaster& raster, std::uint32_t* next, std::byte* records,
+                  std::uint32_t* point_of_place) {
+  const DF d;
+  const DU du;
+  const std::size_t lanes = hn::Lanes(d);
+  Run run;
+  Placed p;
+  for (std::size_t first = 0; first < from.count; first += kRun) {
+    if (!is_any_wanted(from.wanted + first, from.bit)) continue;
+    transform(from, first, run);
+    for (std::size_t i = 0; i < kRun && first + i < from.count; i += lanes) {
+      if (!place_lanes(from, raster, run, first, i, p)) continue;
+      alignas(64) ShadowRecord lane_records[16];
+      alignas(64) std::uint32_t texels[16];
+      hn::StoreInterleaved4(p.u, p.v, p.w, hn::BitCast(d, hn::Load(du, run.own_face + i)), d, &lane_records[0].u);
+      hn::Store(p.texel, du, texels);
+      const auto number = static_cast<std::uint32_t>(first + i);
+      if (hn::AllTrue(du, p.is_on)) {
+        for (std::uint32_t k = 0; k < lanes; ++k) {
+          const std::uint32_t place = next[texels[k]]++;
+          std::memcpy(records + std::size_t{place} * sizeof(ShadowRecord), &lane_records[k], sizeof(ShadowRecord));
+          point_of_place[place] = number + k;
+        }
         continue;
       }
-      alignas(64) ShadowRecord records[16];
-      hn::StoreInterleaved4(u, v, w, own_face, d, &records[0].u);
-      std::uint8_t bits[8] = {};
-      hn::StoreMaskBits(du, is_on, bits);
-      hn::CompressStore(hn::BitCast(du, texel), is_on, du, to.texels + to.count);
-      hn::CompressStore(number, is_on, du, to.points + to.count);
-      for (unsigned on = bits[0] | static_cast<unsigned>(bits[1]) << 8; on != 0; on &= on - 1) {
-        to.records[to.count++] = records[__builtin_ctz(on)];
+      for (unsigned on = p.on; on != 0; on &= on - 1) {
+        const auto k = static_cast<std::uint32_t>(__builtin_ctz(on));
+        const std::uint32_t place = next[texels[k]]++;
+        std::memcpy(records + std::size_t{place} * sizeof(ShadowRecord), &lane_records[k], sizeof(ShadowRecord));
+        point_of_place[place] = number + k;
       }
     }
   }
@@ -211,8 +265,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace facemap::simd {
 
-void project_points(const PointsToProject& from, const ShadowRaster& raster, ProjectedPoints& to) {
-  FACEMAP_DISPATCH(project_points)(from, raster, to);
+std::size_t count_points(const PointsToProject& from, const ShadowRaster& raster, std::uint32_t* counts,
+                         std::uint8_t* occupied, std::vector<std::uint32_t>& rest) {
+  return FACEMAP_DISPATCH(count_points)(from, raster, counts, occupied, rest);
+}
+
+void place_points(const PointsToProject& from, const ShadowRaster& raster, std::uint32_t* next, std::byte* records,
+                  std::uint32_t* point_of_place) {
+  FACEMAP_DISPATCH(place_points)(from, raster, next, records, point_of_place);
 }
 
 WantedPoints measure_wanted(const std::int32_t* x, const std::int32_t* y, const std::int32_t* z,

@@ -47,19 +47,19 @@ struct PointsToProject {
   float nearest;  ///< points with a lesser Z are not for the raster
 };
 
-/// Where they go, in order; room for 16 more than are wanted in each.
-struct ProjectedPoints {
-  ShadowRecord* records;
-  std::uint32_t* texels;             ///< row * columns + column
-  std::uint32_t* points;             ///< which of the asked points
-  std::uint32_t* spots;              ///< as texels, of the finer raster; null: not wanted
-  std::vector<std::uint32_t>* rest;  ///< appended to: the points that are too near or not on the raster
-  std::size_t count = 0;
-};
-
+/// First pass: adds one to counts[row * columns + column] of each point's texel, and appends to `rest` the points that
+/// are too near or not on the raster. Returns how many are on it. `occupied`: one bit a spot of the raster that is
+/// kSpotColumns x kSpotRows times finer, set where a point lies; null: not wanted.
+///
 /// Each of u, v, 1 and w is off by at most two roundings of float32 from what a common factor makes of the true ones,
 /// the error of X, Y and Z themselves apart: r = 1 / Z is rounded, and Z r is taken for 1.
-void project_points(const PointsToProject& from, const ShadowRaster& raster, ProjectedPoints& to);
+std::size_t count_points(const PointsToProject& from, const ShadowRaster& raster, std::uint32_t* counts,
+                         std::uint8_t* occupied, std::vector<std::uint32_t>& rest);
+
+/// Second pass: puts each point that the first counted at the next place of its texel, where next[texel] counts up. At
+/// `records` there is room for a ShadowRecord a place.
+void place_points(const PointsToProject& from, const ShadowRaster& raster, std::uint32_t* next, std::byte* records,
+                  std::uint32_t* point_of_place);
 
 /// Turns each block of 16 records into a ShadowBlock, in place, and finds its least w.
 void finish_blocks(ShadowBlock* blocks, std::size_t count, float* farthest);
