@@ -81,7 +81,7 @@ void clear_all(benchmark::State& state, const std::string& name, int detail, boo
         ++asked;
         return blocks(triangle_of(picture.scene, face), s, picture.lights[l], picture.point(point));
       };
-      clear_blocked(picture.scene, picture.lights[l], picture.seen.points, {plane.data(), 1, 0},
+      clear_blocked(picture.scene, picture.lights[l], picture.seen.points, {plane.data(), plane.data(), 1, 0},
                     skip ? entries.data() : nullptr, exactly, scratch, &counters);
       benchmark::DoNotOptimize(plane.data());
       state.PauseTiming();

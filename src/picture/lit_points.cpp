@@ -19,41 +19,35 @@ TruePoint true_point(const Scene& scene, const SampleGrid& grid, std::uint32_t s
           side(triangle, K)};
 }
 
-// One light's bit of all masks, a byte a point, so that lights can run at the same time.
-std::vector<std::uint8_t> plane_of(const std::vector<std::uint8_t>& masks, std::size_t stride, std::size_t light) {
-  std::vector<std::uint8_t> plane(masks.size() / stride);
-  const std::uint8_t* mask = masks.data() + light / 8;
-  for (std::size_t i = 0; i < plane.size(); ++i) plane[i] = mask[i * stride] >> (light % 8) & 1;
-  return plane;
-}
-
-void clear_where_zero(const std::vector<std::uint8_t>& plane, std::size_t stride, std::size_t light,
-                      std::vector<std::uint8_t>& masks) {
-  std::uint8_t* mask = masks.data() + light / 8;
-  for (std::size_t i = 0; i < plane.size(); ++i) {
-    mask[i * stride] = static_cast<std::uint8_t>(mask[i * stride] & ~((plane[i] ^ 1u) << (light % 8)));
-  }
-}
-
-// Calls task(light, plane, scratch, counters) for each light, which clears bytes of its plane.
+// Calls task(light, mask, scratch, counters) for each light, which clears its bits.
 template <class Task>
 void for_each_light(const LightWork& work, std::size_t stride, std::vector<std::uint8_t>& masks, Counters& counters,
                     const Task& task) {
-  std::mutex merging;
+  const std::vector<std::uint8_t> asked = masks;
+  std::mutex writing, reporting;
   std::size_t done = 0;
   work.executor.for_each(work.lights.size(), [&](std::size_t l, int worker) {
     Counters own;
-    std::vector<std::uint8_t> plane;
-    {
-      const std::scoped_lock lock(merging);  // other lights write their bits into the same bytes
-      plane = plane_of(masks, stride, l);
-    }
-    task(l, plane, work.scratch[static_cast<std::size_t>(worker)], own);
-    const std::scoped_lock lock(merging);
-    clear_where_zero(plane, stride, l, masks);
+    const MaskBit mask{asked.data(), masks.data(), stride, static_cast<int>(l), &writing};
+    task(l, mask, work.scratch[static_cast<std::size_t>(worker)], own);
+    const std::scoped_lock lock(reporting);
     counters += own;
     work.report(static_cast<double>(++done) / static_cast<double>(work.lights.size()));
   });
+}
+
+std::uint8_t& byte_of(const MaskBit& mask, std::size_t point) {
+  return mask.lit[point * mask.stride + static_cast<std::size_t>(mask.bit / 8)];
+}
+
+// Those of `points` whose bit is set.
+std::vector<std::uint32_t> still_lit(const std::vector<std::uint32_t>& points, const MaskBit& mask) {
+  const std::scoped_lock lock(*mask.writing);
+  std::vector<std::uint32_t> lit;
+  for (const std::uint32_t i : points) {
+    if ((byte_of(mask, i) >> (mask.bit % 8) & 1) != 0) lit.push_back(i);
+  }
+  return lit;
 }
 
 AskedPoints subset(const AskedPoints& points, const std::vector<std::uint32_t>& numbers) {
@@ -81,7 +75,7 @@ void clear_blocked(const LightWork& work, const SampleGrid& grid, SeenPoints& se
   if (work.closed != nullptr) outside_camera = work.closed->outside(scene, grid.frame.position());
 
   for_each_light(work, seen.stride, seen.masks, counters,
-                 [&](std::size_t l, std::vector<std::uint8_t>& plane, ShadowScratch& scratch, Counters& own) {
+                 [&](std::size_t l, const MaskBit& mask, ShadowScratch& scratch, Counters& own) {
                    const Vector& light = work.lights[l];
                    FacePairs pairs(scene);
                    const auto is_between = [&](std::size_t point, std::uint32_t face, int face_side) {
@@ -91,24 +85,24 @@ void clear_blocked(const LightWork& work, const SampleGrid& grid, SeenPoints& se
                    };
                    std::vector<std::uint8_t> skippable;
                    if (work.closed != nullptr) skippable = work.closed->skippable_entries(scene, outside_camera, light);
-                   clear_blocked(scene, light, points, {plane.data(), 1, 0},
-                                 skippable.empty() ? nullptr : skippable.data(), is_between, scratch, &own);
+                   clear_blocked(scene, light, points, mask, skippable.empty() ? nullptr : skippable.data(), is_between,
+                                 scratch, &own);
                    if (skippable.empty()) return;
                    // Exit faces speak for a closed part only at points strictly inside their face: the others ask all
                    // faces.
-                   std::vector<std::uint32_t> numbers;
-                   for (const std::uint32_t i : seen.loose) {
-                     if (plane[i] != 0) numbers.push_back(i);
-                   }
+                   const std::vector<std::uint32_t> numbers = still_lit(seen.loose, mask);
                    if (numbers.empty()) return;
-                   std::vector<std::uint8_t> still_lit(numbers.size(), 1);
+                   std::vector<std::uint8_t> lit(numbers.size(), 1);
                    clear_blocked(
-                       scene, light, subset(points, numbers), {still_lit.data(), 1, 0}, nullptr,
+                       scene, light, subset(points, numbers), {lit.data(), lit.data(), 1, 0}, nullptr,
                        [&](std::size_t point, std::uint32_t face, int face_side) {
                          return is_between(numbers[point], face, face_side);
                        },
                        scratch, &own);
-                   for (std::size_t k = 0; k < numbers.size(); ++k) plane[numbers[k]] = still_lit[k];
+                   const std::scoped_lock lock(*mask.writing);
+                   for (std::size_t k = 0; k < numbers.size(); ++k) {
+                     if (lit[k] == 0) byte_of(mask, numbers[k]) &= static_cast<std::uint8_t>(~(1u << (mask.bit % 8)));
+                   }
                  });
 }
 
@@ -116,12 +110,11 @@ void clear_blocked(const LightWork& work, const AskedPoints& points, const std::
                    std::size_t stride, std::vector<std::uint8_t>& masks, Counters& counters) {
   if (positions.empty()) return;
   for_each_light(
-      work, stride, masks, counters,
-      [&](std::size_t l, std::vector<std::uint8_t>& plane, ShadowScratch& scratch, Counters& own) {
+      work, stride, masks, counters, [&](std::size_t l, const MaskBit& mask, ShadowScratch& scratch, Counters& own) {
         const auto is_between = [&](std::size_t point, std::uint32_t face, int face_side) {
           return blocks(triangle_of(work.scene, face), face_side, work.lights[l], GivenPoint{positions[point]}, &own);
         };
-        clear_blocked(work.scene, work.lights[l], points, {plane.data(), 1, 0}, nullptr, is_between, scratch, &own);
+        clear_blocked(work.scene, work.lights[l], points, mask, nullptr, is_between, scratch, &own);
       });
 }
 

@@ -95,7 +95,7 @@ class LightPass {
   simd::WantedPoints find_wanted() {
     const std::size_t count = points_.size(), stride = mask_.stride;
     parts_.wanted.resize(count + kPadding);
-    const std::uint8_t* masks = mask_.masks + mask_.bit / 8;
+    const std::uint8_t* masks = mask_.asked + mask_.bit / 8;
     std::uint8_t* wanted = parts_.wanted.data();
     const int shift = mask_.bit % 8;
     const auto bit = [=](std::uint8_t mask) { return static_cast<std::uint8_t>(mask >> shift & 1); };
@@ -172,12 +172,17 @@ class LightPass {
   }
 
   void clear_blocked_places() {
+    const std::unique_lock lock = hold_mask();
     const ShadowPoints& points = parts_.points;
     for (std::uint32_t first = 0; first < points.count(); first += 16) {
       for (std::uint32_t blocked = points.blocked_from(first); blocked != 0; blocked &= blocked - 1) {
         clear(points.point_at(first + static_cast<std::uint32_t>(std::countr_zero(blocked))));
       }
     }
+  }
+
+  std::unique_lock<std::mutex> hold_mask() const {
+    return mask_.writing != nullptr ? std::unique_lock(*mask_.writing) : std::unique_lock<std::mutex>();
   }
 
   void add_all_to_rest() {
@@ -187,14 +192,13 @@ class LightPass {
   }
 
   void ask_rest() {
-    for (const std::uint32_t point :
-         find_blocked_singly(scene_, light_, points_, parts_.rest, blocks_exactly_, &counters_)) {
-      clear(point);
-    }
+    const auto blocked = find_blocked_singly(scene_, light_, points_, parts_.rest, blocks_exactly_, &counters_);
+    const std::unique_lock lock = hold_mask();
+    for (const std::uint32_t point : blocked) clear(point);
   }
 
   void clear(std::size_t point) {
-    std::uint8_t& byte = mask_.masks[point * mask_.stride + static_cast<std::size_t>(mask_.bit / 8)];
+    std::uint8_t& byte = mask_.lit[point * mask_.stride + static_cast<std::size_t>(mask_.bit / 8)];
     byte = static_cast<std::uint8_t>(byte & ~(1u << (mask_.bit % 8)));
   }
 

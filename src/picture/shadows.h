@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 
 #include "picture/asked_points.h"
 
@@ -33,17 +34,19 @@ class ShadowScratch {
 /// the exact answer, asked where the float32 filter leaves it open.
 using BlocksExactly = std::function<bool(std::size_t point, std::uint32_t face, int side)>;
 
-/// One bit of each point's mask: masks[point * stride + bit / 8], least significant first.
+/// One bit of each point's mask: asked[point * stride + bit / 8], least significant first.
 struct MaskBit {
-  std::uint8_t* masks;
-  std::size_t stride;  ///< bytes a point
+  const std::uint8_t* asked;  ///< set: the point is asked
+  std::uint8_t* lit;          ///< cleared where it is blocked; may be the same array
+  std::size_t stride;         ///< bytes a point
   int bit;
+  std::mutex* writing = nullptr;  ///< held while `lit` is written, if other lights write their bits at the same time
 };
 
-/// For every point whose bit is set: clears it if some kept face stands strictly between `light` and the point. The
-/// transposed way: points are sorted into a raster about the light, then the faces run over them; no list is made.
-/// `skip_entries` (one byte a face, or null): where it is not 0 the face may be left out if it is turned towards the
-/// light (entry faces of closed parts). Exact, whatever the order.
+/// For every point whose bit is set in mask.asked: clears it in mask.lit if some kept face stands strictly between
+/// `light` and the point. The transposed way: points are sorted into a raster about the light, then the faces run over
+/// them; no list is made. `skip_entries` (one byte a face, or null): where it is not 0 the face may be left out if it
+/// is turned towards the light (entry faces of closed parts). Exact, whatever the order.
 void clear_blocked(const Scene& scene, const Vector& light, const AskedPoints& points, const MaskBit& mask,
                    const std::uint8_t* skip_entries, const BlocksExactly& blocks_exactly, ShadowScratch& scratch,
                    Counters* counters = nullptr);

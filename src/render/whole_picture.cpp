@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "map/face_planes.h"
@@ -52,6 +53,16 @@ void put_band(std::vector<T>&& band, std::size_t first, std::size_t count, std::
   }
   plane.resize(count);
   std::copy(band.begin(), band.end(), plane.begin() + static_cast<std::ptrdiff_t>(first));
+}
+
+std::size_t count_bits(const std::vector<std::uint8_t>& bytes) {
+  std::size_t count = 0, i = 0;
+  for (std::uint64_t word; i + sizeof(word) <= bytes.size(); i += sizeof(word)) {
+    std::memcpy(&word, &bytes[i], sizeof(word));
+    count += static_cast<unsigned>(std::popcount(word));
+  }
+  for (; i < bytes.size(); ++i) count += static_cast<unsigned>(std::popcount(bytes[i]));
+  return count;
 }
 
 // The mean of each pixel's samples, in the order of rows and columns.
@@ -170,7 +181,7 @@ void WholePicture::ask_lights(const SampleGrid& grid, SeenPoints& seen) {
   report(0.3, "shade");
   const Stopwatch light_time;
   MovedPoints moved = find_moved_points(scene_, grid, seen, lights_, options_, executor_);
-  for (const std::uint8_t mask : seen.masks) statistics_.light_queries += static_cast<unsigned>(std::popcount(mask));
+  statistics_.light_queries += count_bits(seen.masks);
   statistics_.light_queries += moved.positions.size() * lights_.size();
   Counters& counters = statistics_.light_tests;
   if (lists_ != nullptr) {

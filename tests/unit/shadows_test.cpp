@@ -87,8 +87,8 @@ Answer ask(const Scene& scene, const Vector& light, const Questions& questions, 
     EXPECT_EQ(s, side(triangle_of(scene, face), light));
     return is_blocked_by(scene, face, s, light, questions.points[point]);
   };
-  clear_blocked(scene, light, questions.asked, {answer.masks.data(), stride, bit}, skip_entries, exactly, scratch,
-                &answer.counters);
+  clear_blocked(scene, light, questions.asked, {answer.masks.data(), answer.masks.data(), stride, bit}, skip_entries,
+                exactly, scratch, &answer.counters);
   return answer;
 }
 
@@ -251,9 +251,9 @@ TEST(Shadows, PointsWhoseBitIsNotSetStayAsTheyAre) {
   std::vector<std::uint8_t> masks{0x01, 0x01};
   ShadowScratch scratch;
   const auto never = [](std::size_t, std::uint32_t, int) { return false; };
-  clear_blocked(scene, {0, 1, 0}, points, {masks.data(), 1, 1}, nullptr, never, scratch);
+  clear_blocked(scene, {0, 1, 0}, points, {masks.data(), masks.data(), 1, 1}, nullptr, never, scratch);
   EXPECT_EQ(masks, (std::vector<std::uint8_t>{0x01, 0x01}));
-  clear_blocked(scene, {0, 1, 0}, points, {masks.data(), 1, 0}, nullptr, never, scratch);
+  clear_blocked(scene, {0, 1, 0}, points, {masks.data(), masks.data(), 1, 0}, nullptr, never, scratch);
   EXPECT_EQ(masks, (std::vector<std::uint8_t>{0x00, 0x01}));
   EXPECT_GT(scratch.memory_bytes(), 0u);
 }
@@ -273,8 +273,8 @@ TEST(Shadows, OwnFaceNeverBlocks) {
   std::vector<std::uint8_t> masks{0x01};
   ShadowScratch scratch;
   clear_blocked(
-      scene, {0, 1, 0}, points, {masks.data(), 1, 0}, nullptr, [](std::size_t, std::uint32_t, int) { return true; },
-      scratch);
+      scene, {0, 1, 0}, points, {masks.data(), masks.data(), 1, 0}, nullptr,
+      [](std::size_t, std::uint32_t, int) { return true; }, scratch);
   EXPECT_EQ(masks[0], 0x01);
 }
 
