@@ -146,7 +146,7 @@ void find_boxes(const std::uint32_t* triangles, std::size_t first, std::size_t c
     const Boxes box = boxes_of(rules, gather(points, a), gather(points, b), gather(points, c));
     M open = left < lanes ? hn::And(box.seen, hn::FirstN(d, left)) : box.seen;
     if (hn::AllFalse(d, open)) continue;
-    const VU faces = hn::Iota(du, static_cast<std::uint32_t>(first + i));
+    const VU faces = hn::Add(hn::Iota(du, 0), hn::Set(du, static_cast<std::uint32_t>(first + i)));
     const V size = samples(box);
     for (int q = 0; q < kSmallQueues; ++q) {
       const M fits = hn::And(open, hn::Le(size, hn::Set(d, kQueueSamples[q])));

@@ -193,7 +193,7 @@ HWY_INLINE void draw_row(const LanePlanes& p, float dy, float low, float high, s
   row_values(p, hn::Set(d, dy), values);
   const auto begin = static_cast<std::size_t>(low), end = static_cast<std::size_t>(high) + 1;
   for (std::size_t x = begin; x < end; x += lanes) {
-    const V dx = hn::Iota(d, static_cast<float>(x));
+    const V dx = counted_from(static_cast<float>(x));
     const V e = hn::Min(hn::Min(hn::Add(hn::Mul(p.A[0], dx), values[0]), hn::Add(hn::Mul(p.A[1], dx), values[1])),
                         hn::Add(hn::Mul(p.A[2], dx), values[2]));
     const M live = hn::Le(dx, hn::Set(d, high));
@@ -218,7 +218,7 @@ HWY_INLINE void draw_one(const FaceBlock& block, const FaceBoxes& boxes, std::si
   for (std::int32_t y = first_row; y <= last_row; y += static_cast<std::int32_t>(hn::Lanes(d))) {
     const auto dy = static_cast<float>(y - boxes.y0[k]);
     V values[4];
-    row_values(p, hn::Iota(d, dy), values);
+    row_values(p, counted_from(dy), values);
     const Span span = span_at(spans, values, last_dx);
     hn::Store(span.low, d, low);
     hn::Store(span.high, d, high);
@@ -295,7 +295,7 @@ HWY_INLINE void draw_run(const LargeFace& face, std::uint32_t id, const Run& run
       const M live = hn::FirstN(d, static_cast<std::size_t>(std::min(lanes, end - at)));
       const std::uint32_t first = static_cast<std::uint32_t>(y) * target.columns + static_cast<std::uint32_t>(at);
       const auto left = static_cast<std::size_t>(target.columns) - static_cast<std::size_t>(at);
-      draw_vector(planes, hn::Iota(d, static_cast<float>(at - x)), live, first, left, id, target);
+      draw_vector(planes, counted_from(static_cast<float>(at - x)), live, first, left, id, target);
     }
   }
 }

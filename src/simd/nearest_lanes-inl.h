@@ -29,6 +29,12 @@ using M = hn::Mask<D>;
 constexpr std::size_t kRoom = kBlockFaces;  // a vector's lanes at most
 constexpr float kInverseSharpness = 0x1p-17f;
 
+// first, first + 1, ...: steps that are a constant are not put together lane by lane, as Iota does it.
+HWY_INLINE V counted_from(float first) {
+  const D d;
+  return hn::Add(hn::Iota(d, 0), hn::Set(d, first));
+}
+
 // An upper bound of w, from the errors that `sharp` stands for; none if it is never sharp.
 HWY_INLINE V largest_w(V w, V sharp) {
   const D d;

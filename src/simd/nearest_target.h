@@ -56,10 +56,13 @@ struct RasterTarget {
 inline void draw_sample(const RasterTarget& target, std::uint32_t sample, float w, std::int32_t face) {
   const float old_w = target.w[sample];
   const std::int32_t old_face = target.faces[sample];
+  const auto bits = std::bit_cast<std::int32_t>(w), old_bits = std::bit_cast<std::int32_t>(old_w);
   const bool is_front = w > old_w;
-  target.w[sample] = is_front ? w : old_w;
-  target.faces[sample] = is_front ? face : old_face;
-  const auto apart = std::bit_cast<std::int32_t>(w) - std::bit_cast<std::int32_t>(old_w);
+  // No branch: which of two faces is in front is hard to predict.
+  const std::int32_t change = -static_cast<std::int32_t>(is_front);
+  target.w[sample] = std::bit_cast<float>(old_bits ^ ((old_bits ^ bits) & change));
+  target.faces[sample] = old_face ^ ((old_face ^ face) & change);
+  const std::int32_t apart = bits - old_bits;
   if (apart > kCloseUlps || apart < -kCloseUlps || old_face < 0) [[likely]]
     return;
   const auto loser = static_cast<std::uint32_t>(is_front ? old_face : face);
