@@ -115,7 +115,9 @@ void project_vertices(const float* positions, std::size_t count, const VertexFra
   if (i == count) return;
   float last[3 * kVertexRoom] = {};
   std::copy(positions + 3 * i, positions + 3 * count, last);
-  project(frame, last, points + 2 * i);
+  float points_of_last[2 * kVertexRoom];
+  project(frame, last, points_of_last);
+  std::copy(points_of_last, points_of_last + 2 * (count - i), points + 2 * i);
 }
 
 void project_vertices_surface(const float* positions, std::size_t count, const SurfaceFrame& frame, float* points) {
@@ -125,7 +127,9 @@ void project_vertices_surface(const float* positions, std::size_t count, const S
   if (i == count) return;
   float last[3 * kVertexRoom] = {};
   std::copy(positions + 3 * i, positions + 3 * count, last);
-  project_surface(frame, last, points + 2 * i);
+  float points_of_last[2 * kVertexRoom];
+  project_surface(frame, last, points_of_last);
+  std::copy(points_of_last, points_of_last + 2 * (count - i), points + 2 * i);
 }
 
 }  // namespace facemap::simd::HWY_NAMESPACE

@@ -40,10 +40,12 @@ struct SurfaceFrame {
 /// Error of the computed angle, radians: atan's polynomial (Abramowitz and Stegun 4.4.49, 2^-25) and its roundings.
 inline constexpr float kAngleError = 0x1p-19f;
 
-void project_vertices_surface(const float* positions, std::size_t count, const SurfaceFrame& frame, float* points);
-
-/// Points (u, v) of `count` vertices from their positions (x, y, z). `points` has room for kVertexRoom more points.
+/// Room for a vector of vertices.
 inline constexpr std::size_t kVertexRoom = 16;
+
+/// Points (u, v) of `count` vertices from their positions (x, y, z). Writes `count` points and no more: what follows
+/// them may be the work of another thread.
 void project_vertices(const float* positions, std::size_t count, const VertexFrame& frame, float* points);
+void project_vertices_surface(const float* positions, std::size_t count, const SurfaceFrame& frame, float* points);
 
 }  // namespace facemap::simd

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simd/nearest_vertices.h"
 #include "simd/target.h"
 #include "support/scenes.h"
 
@@ -206,6 +207,36 @@ TEST(NearestFaces, OfLargePicturesAreThoseOfTheCamera) {
   expect_as_asked(scene.mesh, plane_grid(frame, 60, 301, 203), "plane");
   expect_as_asked(scene.mesh, surface_grid(frame, 200, 203, 301), "surface");
   expect_as_asked(scene.mesh, plane_grid(looking(Vector(0), Vector(1, 0, 0)), 100, 120, 90, 3), "plane, inside");
+}
+
+// Threads project neighbouring ranges of vertices at the same time.
+TEST(NearestFaces, VerticesAfterARangeAreLeftAlone) {
+  constexpr std::size_t kMost = 40, kRoom = 2 * (kMost + facemap::simd::kVertexRoom);
+  constexpr float kUntouched = 12345;
+  const std::vector<float> positions(3 * kMost, 1);
+  const facemap::simd::VertexFrame frame = {.origin = {},
+                                            .rows = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                                            .unit = 1,
+                                            .limit = 2,
+                                            .edge_u = 2,
+                                            .edge_v = 2,
+                                            .slack_u = 0,
+                                            .slack_v = 0,
+                                            .slack_z = 0};
+  const facemap::simd::SurfaceFrame surface = {.frame = frame, .per_radian = 1, .largest_angle = 3};
+  const Targets targets;
+  for (const facemap::simd::Target target : targets.all) {
+    facemap::simd::set_active_target(target);
+    for (std::size_t count = 0; count <= kMost; ++count) {
+      std::vector<float> plane_points(kRoom, kUntouched), surface_points(kRoom, kUntouched);
+      facemap::simd::project_vertices(positions.data(), count, frame, plane_points.data());
+      facemap::simd::project_vertices_surface(positions.data(), count, surface, surface_points.data());
+      for (std::size_t i = 0; i < kRoom; ++i) {
+        ASSERT_EQ(plane_points[i] == kUntouched, i >= 2 * count) << facemap::simd::name_of(target) << " " << count;
+        ASSERT_EQ(surface_points[i] == kUntouched, i >= 2 * count) << facemap::simd::name_of(target) << " " << count;
+      }
+    }
+  }
 }
 
 }  // namespace
