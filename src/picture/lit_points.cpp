@@ -147,6 +147,7 @@ void clear_blocked_by_lists(const std::vector<PointLight>& lists, const std::vec
     for (std::size_t i = first; i < last; ++i) {
       for (std::size_t l = 0; l < lists.size(); ++l) {
         std::uint8_t& mask = masks[i * stride + l / 8];
+        if ((mask >> (l % 8) & 1) == 0) continue;
         if (!lists[l].get_lighten_up(positions[i], &own)) mask = static_cast<std::uint8_t>(mask & ~(1u << (l % 8)));
       }
     }

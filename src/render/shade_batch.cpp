@@ -80,6 +80,13 @@ void ShadeBatch::find_moved(std::size_t first, std::vector<MovedPoint>& moved) {
   }
 }
 
+// The numerator of Shader::shade's cosine, in the same order: where it is not above 0 neither is the cosine.
+bool ShadeBatch::may_add(const simd::LightSource& light, std::size_t i) const {
+  const double x = light.position[0] - points_.position[0][i], y = light.position[1] - points_.position[1][i],
+               z = light.position[2] - points_.position[2][i];
+  return points_.normal[0][i] * x + points_.normal[1][i] * y + points_.normal[2][i] * z > 0;
+}
+
 void ShadeBatch::shade(const std::vector<simd::LightSource>& lights, bool inverse_square, const std::uint8_t* masks,
                        std::size_t stride) {
   find_surfaces(smooth_);

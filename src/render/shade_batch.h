@@ -34,6 +34,12 @@ class ShadeBatch {
   /// finite.
   void find_moved(std::size_t first, std::vector<MovedPoint>& moved);
 
+  /// Makes the shading normals that may_add needs.
+  void find_normals() { find_surfaces(smooth_); }
+
+  /// After find_normals: whether the light can add to the radiance of point i if nothing is between.
+  bool may_add(const simd::LightSource& light, std::size_t i) const;
+
   /// Radiance from the lights of each point's mask, `stride` bytes a point.
   void shade(const std::vector<simd::LightSource>& lights, bool inverse_square, const std::uint8_t* masks,
              std::size_t stride);

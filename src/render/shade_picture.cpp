@@ -50,23 +50,45 @@ std::vector<std::uint8_t> full_mask(std::size_t light_count) {
   return mask;
 }
 
+struct FoundPoints {
+  std::vector<MovedPoint> points;
+  std::vector<std::uint8_t> masks;  // of the lights to be asked
+};
+
+// Which lights to ask about the points from number `begin` on, which the batch has just added to `found`.
+void add_masks(ShadeBatch& batch, std::size_t first, std::size_t begin, const std::vector<simd::LightSource>& lights,
+               const std::vector<std::uint8_t>& all, bool asks_all, FoundPoints& found) {
+  if (begin == found.points.size()) return;
+  if (!asks_all) batch.find_normals();
+  for (std::size_t k = begin; k < found.points.size(); ++k) {
+    found.masks.insert(found.masks.end(), all.begin(), all.end());
+    if (asks_all) continue;
+    std::uint8_t* mask = found.masks.data() + k * all.size();
+    for (std::size_t l = 0; l < lights.size(); ++l) {
+      if (batch.may_add(lights[l], found.points[k].owner - first)) continue;
+      mask[l / 8] = static_cast<std::uint8_t>(mask[l / 8] & ~(1u << (l % 8)));
+    }
+  }
+}
+
 // The moved points of all chunks, one after the other; `found` is used up.
-void join(std::vector<std::vector<MovedPoint>>& found, std::size_t light_count, const Executor& executor,
-          MovedPoints& moved, SeenPoints& seen) {
+void join(std::vector<FoundPoints>& found, const Executor& executor, MovedPoints& moved, SeenPoints& seen) {
   std::vector<std::size_t> starts(found.size() + 1);
-  for (std::size_t chunk = 0; chunk < found.size(); ++chunk) starts[chunk + 1] = starts[chunk] + found[chunk].size();
+  for (std::size_t chunk = 0; chunk < found.size(); ++chunk) {
+    starts[chunk + 1] = starts[chunk] + found[chunk].points.size();
+  }
   moved.positions.resize(starts.back());
   moved.owners.resize(starts.back());
   moved.points.samples.resize(starts.back());
   moved.masks.resize(starts.back() * seen.stride);
-  const std::vector<std::uint8_t> full = full_mask(light_count), none(seen.stride);
+  const std::vector<std::uint8_t> none(seen.stride);
   executor.for_each(found.size(), [&](std::size_t chunk, int) {
     std::size_t i = starts[chunk];
-    for (const MovedPoint& point : found[chunk]) {
+    std::copy(found[chunk].masks.begin(), found[chunk].masks.end(), moved.masks.data() + i * seen.stride);
+    for (const MovedPoint& point : found[chunk].points) {
       moved.positions[i] = point.position;
       moved.owners[i] = point.owner;
       moved.points.samples[i] = seen.points.samples[point.owner];
-      std::copy(full.begin(), full.end(), moved.masks.data() + i * seen.stride);
       std::copy(none.begin(), none.end(), seen.masks.data() + point.owner * seen.stride);
       ++i;
     }
@@ -90,13 +112,17 @@ MovedPoints find_moved_points(const Scene& scene, const SampleGrid& grid, SeenPo
   MovedPoints moved;
   if (options.normals == Renderer::Normals::Flat || !options.shadow_terminator_fix) return moved;
 
-  std::vector<std::vector<MovedPoint>> found(chunks_of(seen.points.size()));
+  const std::vector<simd::LightSource> sources = sources_of(lights);
+  const std::vector<std::uint8_t> all = full_mask(lights.size());
+  std::vector<FoundPoints> found(chunks_of(seen.points.size()));
   for_each_batch(scene, grid, seen.points, true, executor,
                  [&](ShadeBatch& batch, std::size_t first, std::size_t chunk) {
-                   found[chunk].reserve(kChunk);
-                   batch.find_moved(first, found[chunk]);
+                   found[chunk].points.reserve(kChunk);
+                   const std::size_t begin = found[chunk].points.size();
+                   batch.find_moved(first, found[chunk].points);
+                   add_masks(batch, first, begin, sources, all, options.want_lights, found[chunk]);
                  });
-  join(found, lights.size(), executor, moved, seen);
+  join(found, executor, moved, seen);
   return moved;
 }
 

@@ -19,11 +19,12 @@ struct MovedPoints {
   AskedPoints points;                 ///< their `faces` are kNoOwnFace
   std::vector<Vector> positions;      ///< the float32 points themselves, for the exact answer
   std::vector<std::uint32_t> owners;  ///< ascending numbers of the seen points that they stand for
-  std::vector<std::uint8_t> masks;    ///< seen.stride bytes a point, a bit set for each light: nothing is blocked yet
+  std::vector<std::uint8_t> masks;    ///< seen.stride bytes a point, a bit set for each light that is to be asked
 };
 
-/// Finds them among the seen points, and clears the masks of their owners, which need not be asked. None with flat
-/// normals or without the fix. Throws Error if a moved point is not finite.
+/// Finds them among the seen points, and clears the masks of their owners, which need not be asked. Unless light masks
+/// are wanted for themselves, lights that the shading normal is turned from are left out: they add nothing. None with
+/// flat normals or without the fix. Throws Error if a moved point is not finite.
 MovedPoints find_moved_points(const Scene& scene, const SampleGrid& grid, SeenPoints& seen,
                               const std::vector<Light>& lights, const Renderer::Options& options,
                               const Executor& executor);

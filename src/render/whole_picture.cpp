@@ -38,7 +38,7 @@ constexpr int kFewestRows = 16;  // of a band, unless the picture has fewer
 // Masks of points, put where their samples lie.
 void put_masks(const SeenPoints& seen, std::uint8_t* masks) {
   const std::size_t stride = seen.stride;
-  const std::vector<std::uint32_t>& numbers = seen.points.samples;
+  const UnsetVector<std::uint32_t>& numbers = seen.points.samples;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     for (std::size_t k = 0; k < stride; ++k) masks[numbers[i] * stride + k] = seen.masks[i * stride + k];
   }
@@ -182,7 +182,7 @@ void WholePicture::ask_lights(const SampleGrid& grid, SeenPoints& seen) {
   const Stopwatch light_time;
   MovedPoints moved = find_moved_points(scene_, grid, seen, lights_, options_, executor_);
   statistics_.light_queries += count_bits(seen.masks);
-  statistics_.light_queries += moved.positions.size() * lights_.size();
+  statistics_.light_queries += count_bits(moved.masks);
   Counters& counters = statistics_.light_tests;
   if (lists_ != nullptr) {
     clear_blocked_by_lists(*lists_, scene_, grid, executor_, seen, counters);

@@ -304,6 +304,41 @@ TEST(Renderer, NormalsOfAFlatFaceLiftNothing) {
   EXPECT_EQ(smooth.lights, flat.lights);
 }
 
+// Masks are wanted or not: the colours are the same, though fewer lights are asked where they add nothing.
+TEST(Renderer, LightsThatTheShadingNormalIsTurnedFromAddNothing) {
+  Mesh mesh;  // a coarse ball with the normals of a round one
+  constexpr int kRound = 12, kHigh = 7;
+  for (int j = 0; j < kHigh; ++j) {
+    for (int i = 0; i < kRound; ++i) {
+      const double a = 2 * M_PI * i / kRound, b = M_PI * (j + 0.5) / kHigh;
+      mesh.positions.push_back(
+          Vector(float(std::sin(b) * std::cos(a)), float(std::cos(b)), float(std::sin(b) * std::sin(a))));
+    }
+  }
+  for (std::uint32_t j = 0; j + 1 < kHigh; ++j) {
+    for (std::uint32_t i = 0; i < kRound; ++i) {
+      const std::uint32_t p = j * kRound + i, q = j * kRound + (i + 1) % kRound;
+      mesh.triangles.push_back({p, q, p + kRound});
+      mesh.triangles.push_back({q, q + kRound, p + kRound});
+    }
+  }
+  mesh.normals = mesh.positions;
+  mesh.normal_corners = mesh.triangles;
+  const Scene scene(mesh);
+  View view;
+  view.position = {0, 1, 4};
+  view.look_at = {0, 0, 0};
+  const std::vector<Light> lights{{{1, 4, 2}}, {{6, 3, -1}}, {{-2, -4, 0}}, {{-9, 1, 3}}};
+  Renderer::Options options = small(97);
+  options.want_lights = false;
+  Renderer without(scene, view, lights, options);
+  const Image colours = without.render();
+  options.want_lights = true;
+  Renderer with(scene, view, lights, options);
+  EXPECT_EQ(with.render().pixels, colours.pixels);
+  EXPECT_LT(without.statistics().light_queries, with.statistics().light_queries);
+}
+
 TEST(Renderer, ProgressRunsToTheEndAndCanStop) {
   const Scene scene(floor_and_lid());
   double last = -1;
