@@ -4,7 +4,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+
+#include "picture/unset_vector.h"
 
 namespace facemap {
 
@@ -17,9 +18,9 @@ struct AskedPoints {
   DVector origin{0};
   double step = 1;   ///< world units, above 0
   double error = 0;  ///< world units, rounding to integers included
-  std::vector<std::int32_t> x, y, z;
-  std::vector<std::uint32_t> faces;    ///< the face a point lies on, which never blocks it, or kNoOwnFace
-  std::vector<std::uint32_t> samples;  ///< the sample of the picture that sees it
+  UnsetVector<std::int32_t> x, y, z;
+  UnsetVector<std::uint32_t> faces;    ///< the face a point lies on, which never blocks it, or kNoOwnFace
+  UnsetVector<std::uint32_t> samples;  ///< the sample of the picture that sees it
 
   std::size_t size() const noexcept { return x.size(); }
 };
