@@ -1,6 +1,7 @@
 #include "picture/nearest_raster.h"
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 #include "map/face_planes.h"
@@ -84,8 +85,10 @@ class PlaneRaster {
   void draw_in_bands() {
     const std::size_t chunks = (scene_.face_count() + kChunk - 1) / kChunk;
     std::vector<WaitingBoxes> waiting(chunks);
-    executor_.for_each(chunks, [&](std::size_t i, int) {
-      BoxQueues queues(kChunk);
+    std::vector<std::unique_ptr<BoxQueues>> queues_of;  // one a worker: they are large, and fresh memory is dear
+    for (int i = 0; i < executor_.threads(); ++i) queues_of.push_back(std::make_unique<BoxQueues>(kChunk));
+    executor_.for_each(chunks, [&](std::size_t i, int worker) {
+      BoxQueues& queues = *queues_of[static_cast<std::size_t>(worker)];
       find_boxes(i * kChunk, queues);
       waiting[i].append(queues);
     });
@@ -94,11 +97,12 @@ class PlaneRaster {
       const auto row = [&](int k) { return static_cast<int>(static_cast<std::int64_t>(rows) * k / count); };
       bands_.push_back({row(i), row(i + 1) - 1, {}, {}, {}, 0});
     }
-    executor_.for_each(bands_.size(), [&](std::size_t i, int) { draw_band(waiting, bands_[i]); });
+    executor_.for_each(bands_.size(), [&](std::size_t i, int worker) {
+      draw_band(waiting, *queues_of[static_cast<std::size_t>(worker)], bands_[i]);
+    });
   }
 
-  void draw_band(const std::vector<WaitingBoxes>& waiting, Band& band) {
-    BoxQueues queues(kChunk);
+  void draw_band(const std::vector<WaitingBoxes>& waiting, BoxQueues& queues, Band& band) {
     for (const WaitingBoxes& boxes : waiting) {
       queues.fresh();
       for (int q = 0; q < BoxQueues::kQueues; ++q) {
