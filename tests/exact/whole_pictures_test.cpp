@@ -61,11 +61,21 @@ class Session {
     if (random_.chance(0.5)) view.look_at = a;
     if (random_.chance(0.2)) view.look_at = Vector((DVector(a) + DVector(b)) * 0.5);
     view.up = Vector(random_.direction());
+    if (test.lattice > 0 && random_.chance(0.5)) look_along_an_axis(test, a, view);
     const bool is_plane = random_.chance(0.5);
     view.projection = is_plane ? ProjectionKind::Plane : ProjectionKind::Surface;
     view.field_angle =
         random_.chance(0.3) ? std::exp2(random_.between(-20.0, 0.0)) : random_.between(0.1, is_plane ? 3.0 : 2 * M_PI);
     return view;
+  }
+
+  // Then the rays of the middle row and column lie in planes of the lattice, and meet its edges and vertices exactly.
+  void look_along_an_axis(const TestScene& test, const Vector& vertex, View& view) {
+    const int axis = random_.below(3);
+    view.look_at = view.position = vertex;
+    view.position[axis] += static_cast<float>(test.lattice * random_.between(1, 12) * (random_.chance(0.5) ? 1 : -1));
+    view.up = Vector(0);
+    view.up[(axis + 1) % 3] = 1;
   }
 
   void ask_picture() {
@@ -155,6 +165,48 @@ TEST(WholePictures, EqualTheOracle) {
   const Tally& tally = session.ask(rays);
   EXPECT_EQ(tally.differences, 0u);
   EXPECT_GE(4 * tally.hits, rays);
+}
+
+// An L-shaped prism, closed, of eight caps and twelve sides; `first_side` comes first among the sides.
+Mesh l_prism(int first_side) {
+  const int x[] = {0, 4, 4, 1, 1, 0}, y[] = {0, 0, 1, 1, 4, 4};
+  Mesh mesh;
+  for (const int z : {-2, 2}) {
+    for (int i = 0; i < 6; ++i) mesh.positions.push_back(Vector(x[i], y[i], z));
+  }
+  for (int k = 0; k < 6; ++k) {
+    const auto a = static_cast<std::uint32_t>((first_side + k) % 6), b = (a + 1) % 6;
+    mesh.triangles.push_back({a, b, b + 6});
+    mesh.triangles.push_back({a, b + 6, a + 6});
+  }
+  for (const auto& [a, b, c] : {Corners{0, 1, 2}, Corners{0, 2, 3}, Corners{0, 3, 4}, Corners{0, 4, 5}}) {
+    mesh.triangles.push_back({a + 6, b + 6, c + 6});
+    mesh.triangles.push_back({a, c, b});
+  }
+  return mesh;
+}
+
+// The middle ray meets the inner edge. From the light the prism's arm lies before that point, but its only exit there
+// passes through the point itself: a point that is not strictly inside its face must ask entry faces too.
+TEST(WholePictures, APointOnAnEdgeOfAClosedPartAsksAllFaces) {
+  int seen_on_the_step = 0;
+  for (int first_side = 0; first_side < 6; ++first_side) {
+    const Scene scene(l_prism(first_side));
+    View view;
+    view.position = {5, 5, 0};
+    view.look_at = {1, 1, 0};
+    view.up = {0, 0, 1};
+    Renderer::Options options;
+    options.width = options.height = 3;
+    options.strategy = Renderer::Strategy::Transposed;
+    const Image image = Renderer(scene, view, {{{-6, 4, 0}}, {{2, 6, 0}}}, options).look();
+    const FaceId face = image.ids[4];
+    ASSERT_NE(face, kNoFace);
+    if (scene.mesh().vertex(face, 0).y != 1 || scene.mesh().vertex(face, 2).y != 1) continue;  // the other side won
+    ++seen_on_the_step;
+    EXPECT_EQ(image.lights[4], 2) << "the first light is behind the arm, the second in front of all";
+  }
+  EXPECT_GT(seen_on_the_step, 0);
 }
 
 }  // namespace
