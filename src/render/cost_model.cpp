@@ -5,18 +5,16 @@
 namespace facemap {
 namespace {
 
-// Nanoseconds on one core, medians over the scenes of docs/benchmarks.md. Only their ratios matter, and only near the
-// point where both strategies cost the same.
-constexpr double kTransposedFace = 6;      // a face, for the camera and for each light
-constexpr double kTransposedQuery = 10;    // a sample, for the camera and for each light
-constexpr double kListQuery = 60;          // a point asked of a light's lists
-constexpr double kListCameraQuery = 150;   // a ray asked of the camera's lists, their part of the building included
-constexpr double kListCameraFace = 250;    // a face of the camera's lists
-constexpr double kListFace = 400;          // a face of a light's lists
-constexpr double kListBytesPerFace = 150;  // of one light
+// Nanoseconds on one core for a light, about the middle of the scenes of docs/benchmarks.md, which lie within a factor
+// of three. What the camera sees costs the same either way and is left out.
+constexpr double kTransposedFace = 20;     // a face that runs over the points
+constexpr double kTransposedQuery = 8;     // a point that is sorted
+constexpr double kListQuery = 120;         // a point asked of lists
+constexpr double kListFace = 300;          // a face put into lists
+constexpr double kListBytesPerFace = 100;  // of the lists and planes of one light
 
 // Share of a picture's samples that ask a light: those that hit a face which the light faces.
-constexpr double kAsked = 0.4;
+constexpr double kAsked = 0.3;
 
 std::string in_milliseconds(double ms) {
   char text[32];
@@ -30,9 +28,9 @@ PictureCost estimate_cost(const PictureWork& work) {
   const auto faces = static_cast<double>(work.faces), samples = static_cast<double>(work.samples);
   const auto lights = static_cast<double>(work.lights);
   PictureCost cost;
-  cost.transposed =
-      ((1 + lights) * faces * kTransposedFace + (1 + lights * kAsked) * samples * kTransposedQuery) * 1e-6;
-  cost.lists = (faces * kListCameraFace + samples * kListCameraQuery + lights * kAsked * samples * kListQuery) * 1e-6;
+  const double queries = lights * kAsked * samples;
+  cost.transposed = (lights * faces * kTransposedFace + queries * kTransposedQuery) * 1e-6;
+  cost.lists = queries * kListQuery * 1e-6;
   cost.build_lists = lights * faces * kListFace * 1e-6;
   return cost;
 }

@@ -17,7 +17,7 @@ struct PictureWork {
   std::size_t map_memory = 0;  ///< Options::map_memory
 };
 
-/// Estimated milliseconds of one thread, by each strategy.
+/// Estimated milliseconds of one thread for all lights' shadows, by each strategy.
 struct PictureCost {
   double transposed = 0;
   double lists = 0;        ///< with the lights' lists built
