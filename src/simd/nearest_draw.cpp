@@ -18,25 +18,6 @@ namespace {
 constexpr float kFlat = 0x1p-60f;   // edges that rise less a sample bound no row
 constexpr float kBeyond = 0x1p30f;  // samples: more than any row has
 
-struct LanePlanes {
-  V A[3], B[3], C[3], Aw, Bw, Cw, sharp;
-};
-
-HWY_INLINE LanePlanes load(const FaceBlock& block, std::size_t from) {
-  const D d;
-  LanePlanes p;
-  for (int k = 0; k < 3; ++k) {
-    p.A[k] = hn::Load(d, block.A[k] + from);
-    p.B[k] = hn::Load(d, block.B[k] + from);
-    p.C[k] = hn::Load(d, block.C[k] + from);
-  }
-  p.Aw = hn::Load(d, block.Aw + from);
-  p.Bw = hn::Load(d, block.Bw + from);
-  p.Cw = hn::Load(d, block.Cw + from);
-  p.sharp = hn::Load(d, block.sharp + from);
-  return p;
-}
-
 // Boxes in lanes, (dx, dy) counted from their first samples, cut to the target's rows; none live if they are beyond.
 struct LaneBoxes {
   VI faces, first;  // `first`: the sample at (0, dy)
@@ -169,21 +150,6 @@ HWY_INLINE void draw_spans(const LanePlanes& p, const LaneBoxes& b, const Raster
 }
 
 // ---- one face, row by row ---------------------------------------------------------------------------------------
-
-HWY_INLINE LanePlanes broadcast(const FaceBlock& block, std::size_t k) {
-  const D d;
-  LanePlanes p;
-  for (int i = 0; i < 3; ++i) {
-    p.A[i] = hn::Set(d, block.A[i][k]);
-    p.B[i] = hn::Set(d, block.B[i][k]);
-    p.C[i] = hn::Set(d, block.C[i][k]);
-  }
-  p.Aw = hn::Set(d, block.Aw[k]);
-  p.Bw = hn::Set(d, block.Bw[k]);
-  p.Cw = hn::Set(d, block.Cw[k]);
-  p.sharp = hn::Set(d, block.sharp[k]);
-  return p;
-}
 
 HWY_INLINE void draw_row(const LanePlanes& p, float dy, float low, float high, std::uint32_t row, std::size_t left,
                          std::uint32_t id, const RasterTarget& target) {

@@ -29,6 +29,41 @@ using M = hn::Mask<D>;
 constexpr std::size_t kRoom = kBlockFaces;  // a vector's lanes at most
 constexpr float kInverseSharpness = 0x1p-17f;
 
+// Coefficients of faces in lanes or of one face in all.
+struct LanePlanes {
+  V A[3], B[3], C[3], Aw, Bw, Cw, sharp;
+};
+
+HWY_INLINE LanePlanes load(const FaceBlock& block, std::size_t from) {
+  const D d;
+  LanePlanes p;
+  for (int k = 0; k < 3; ++k) {
+    p.A[k] = hn::Load(d, block.A[k] + from);
+    p.B[k] = hn::Load(d, block.B[k] + from);
+    p.C[k] = hn::Load(d, block.C[k] + from);
+  }
+  p.Aw = hn::Load(d, block.Aw + from);
+  p.Bw = hn::Load(d, block.Bw + from);
+  p.Cw = hn::Load(d, block.Cw + from);
+  p.sharp = hn::Load(d, block.sharp + from);
+  return p;
+}
+
+HWY_INLINE LanePlanes broadcast(const FaceBlock& block, std::size_t k) {
+  const D d;
+  LanePlanes p;
+  for (int i = 0; i < 3; ++i) {
+    p.A[i] = hn::Set(d, block.A[i][k]);
+    p.B[i] = hn::Set(d, block.B[i][k]);
+    p.C[i] = hn::Set(d, block.C[i][k]);
+  }
+  p.Aw = hn::Set(d, block.Aw[k]);
+  p.Bw = hn::Set(d, block.Bw[k]);
+  p.Cw = hn::Set(d, block.Cw[k]);
+  p.sharp = hn::Set(d, block.sharp[k]);
+  return p;
+}
+
 // first, first + 1, ...: steps that are a constant are not put together lane by lane, as Iota does it.
 HWY_INLINE V counted_from(float first) {
   const D d;

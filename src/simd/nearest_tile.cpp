@@ -18,11 +18,6 @@ namespace {
 // Rounding of a cap's centre and of the sums to float32, all of size 1.
 constexpr double kCapRounding = 0x1p-20;
 
-// Coefficients of faces in lanes or of one face in all.
-struct LanePlanes {
-  V A[3], B[3], C[3], Aw, Bw, Cw, sharp;
-};
-
 HWY_INLINE V value(V A, V B, V C, V u, V v) { return hn::Add(hn::Mul(A, u), hn::Add(hn::Mul(B, v), C)); }
 
 HWY_INLINE V least_value(const LanePlanes& p, V u, V v) {
@@ -46,16 +41,7 @@ HWY_INLINE void draw_lanes(const FaceBlock& block, const FaceBoxes& boxes, std::
     height[i] = static_cast<float>(boxes.y1[k] - boxes.y0[k]);
     step_down[i] = columns - (boxes.x1[k] - boxes.x0[k]);
   }
-  LanePlanes p;
-  for (int k = 0; k < 3; ++k) {
-    p.A[k] = hn::Load(d, block.A[k] + from);
-    p.B[k] = hn::Load(d, block.B[k] + from);
-    p.C[k] = hn::Load(d, block.C[k] + from);
-  }
-  p.Aw = hn::Load(d, block.Aw + from);
-  p.Bw = hn::Load(d, block.Bw + from);
-  p.Cw = hn::Load(d, block.Cw + from);
-  p.sharp = hn::Load(d, block.sharp + from);
+  const LanePlanes p = load(block, from);
   const V one = hn::Set(d, 1), last_dx = hn::Load(d, width), last_dy = hn::Load(d, height);
   const VI faces = hn::Load(di, ids), down = hn::Load(di, step_down), right = hn::Set(di, 1);
   VI samples = hn::Load(di, first);
@@ -118,16 +104,7 @@ void draw_tile_faces(const FaceBlock& block, const FaceBoxes& boxes, const TileP
 void draw_tile_rows(const FaceBlock& block, const FaceBoxes& boxes, std::size_t k, const TilePoints& points,
                     const RasterTarget& target) {
   const D d;
-  LanePlanes p;
-  for (int i = 0; i < 3; ++i) {
-    p.A[i] = hn::Set(d, block.A[i][k]);
-    p.B[i] = hn::Set(d, block.B[i][k]);
-    p.C[i] = hn::Set(d, block.C[i][k]);
-  }
-  p.Aw = hn::Set(d, block.Aw[k]);
-  p.Bw = hn::Set(d, block.Bw[k]);
-  p.Cw = hn::Set(d, block.Cw[k]);
-  p.sharp = hn::Set(d, block.sharp[k]);
+  const LanePlanes p = broadcast(block, k);
   const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
   for (std::int32_t y = boxes.y0[k]; y <= boxes.y1[k]; ++y) {
     for (std::int32_t x = boxes.x0[k]; x <= boxes.x1[k]; x += lanes) {
