@@ -79,6 +79,15 @@ std::optional<simd::ShadowFrame> frame_towards(const Vector& light, const Offset
                     (up - along.middle() * axis) * (scale / height), axis * scale);
 }
 
+simd::ShadowFrame turned(const simd::ShadowFrame& frame) {
+  simd::ShadowFrame result = frame;
+  for (int k = 0; k < 3; ++k) {
+    result.rows[0][k] = frame.rows[1][k];
+    result.rows[1][k] = -frame.rows[0][k];  // keeps the determinant above 0
+  }
+  return result;
+}
+
 simd::ShadowFrame frame_of_side(const Vector& light, int side, double reach) {
   const int axis = side / 2;
   DVector rows[3] = {DVector(0), DVector(0), DVector(0)};

@@ -34,11 +34,11 @@ std::size_t bytes_of(const std::vector<T>& v) {
   return v.capacity() * sizeof(T);
 }
 
-// About one texel a point, four times as many columns as rows: a row of a face is one run of points.
+// About two points a texel, four times as many columns as rows: a row of a face is one run of points.
 simd::ShadowRaster raster_for(std::size_t points) {
   simd::ShadowRaster raster{16, 8};
   const auto texels = [&] { return static_cast<std::size_t>(raster.columns) * static_cast<std::size_t>(raster.rows); };
-  while (texels() < points && raster.rows < kMostRows) {
+  while (2 * texels() < points && raster.rows < kMostRows) {
     if (raster.columns < kMostColumns && raster.columns < 4 * raster.rows) {
       raster.columns *= 2;
     } else {

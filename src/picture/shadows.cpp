@@ -4,7 +4,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <glm/common.hpp>
 
+#include "math/dvector.h"
 #include "picture/gnomonic.h"
 #include "picture/shadow_faces.h"
 #include "picture/shadow_points.h"
@@ -47,6 +49,34 @@ constexpr std::size_t kMostVertices = std::size_t{1} << 29;
 
 constexpr int kSides = 6;
 
+// So many faces are looked at to learn which way faces are long.
+constexpr std::size_t kSampledFaces = 1024;
+
+// Whether faces are longer along v than along u, as their boxes on the raster's plane go. A row of texels along which
+// they are long holds them in fewer runs of points.
+bool is_longer_along_v(const Scene& scene, const simd::ShadowFrame& frame) {
+  const Mesh& mesh = scene.mesh();
+  double along_u = 0, along_v = 0;
+  for (std::size_t face = 0; face < mesh.face_count(); face += mesh.face_count() / kSampledFaces + 1) {
+    DVector lower(1), upper(-1);
+    bool is_in_front = true;
+    for (int k = 0; k < 3; ++k) {
+      const Vector& corner = mesh.vertex(face, k);
+      DVector place(0);  // X, Y, Z
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) place[i] += frame.rows[i][j] * (double{corner[j]} - frame.light[j]);
+      }
+      is_in_front = is_in_front && place.z > 0;
+      lower = glm::min(lower, place / place.z);
+      upper = glm::max(upper, place / place.z);
+    }
+    if (!is_in_front) continue;
+    along_u += std::max(0.0, std::min(upper.x, 1.0) - std::max(lower.x, -1.0));
+    along_v += std::max(0.0, std::min(upper.y, 1.0) - std::max(lower.y, -1.0));
+  }
+  return along_v > along_u;
+}
+
 struct Side {
   std::size_t count = 0;
   double nearest = HUGE_VAL;  // world units: the least of the points' greatest components
@@ -80,7 +110,8 @@ class LightPass {
       size_ += std::fabs(from_light_[k]) + points_.step * std::max(std::fabs(static_cast<double>(wanted.lower[k])),
                                                                    std::fabs(static_cast<double>(wanted.upper[k])));
     }
-    if (const auto frame = frame_towards(light_, box, error_of_points())) {
+    if (auto frame = frame_towards(light_, box, error_of_points())) {
+      if (is_longer_along_v(scene_, *frame)) frame = turned(*frame);
       run_frame(*frame, 1, wanted.count, nearest_of(*frame, box));
     } else {
       run_sides();
