@@ -17,26 +17,62 @@ bool is_finite(const Vector& v) { return std::isfinite(v.x) && std::isfinite(v.y
 }  // namespace
 
 ShadeBatch::ShadeBatch(const Scene& scene, const Vector& camera, const RayTable& rays, bool smooth)
-    : scene_(scene), camera_(camera), table_(rays), smooth_(smooth), slots_(scene.mesh()) {}
+    : scene_(scene),
+      camera_(camera),
+      table_(rays),
+      smooth_(smooth && !scene.mesh().normal_corners.empty()),
+      slots_(scene.mesh()) {}
 
-void ShadeBatch::take(const AskedPoints& points, std::size_t first, std::size_t count) {
-  rays_.count = count;
-  slots_.assign(points.faces.data() + first, count, rays_.slots);
-  set_up_rays(points, first);
+std::size_t ShadeBatch::take(const AskedPoints& points, std::size_t first, std::size_t end) {
+  rays_.count = std::min(simd::kSeenBatch, end - first);
+  for (std::size_t i = 0; i < rays_.count; ++i) numbers_[i] = static_cast<std::uint32_t>(first + i);
+  std::copy_n(points.samples.data() + first, rays_.count, samples_);
+  std::copy_n(points.faces.data() + first, rays_.count, face_ids_);
+  set_up();
+  return rays_.count;
+}
+
+std::size_t ShadeBatch::take_smooth(const AskedPoints& points, std::size_t first, std::size_t end) {
+  rays_.count = 0;
+  std::uint32_t last = kNoOwnFace;
+  bool last_has_normals = false;
+  std::size_t i = first;
+  for (; i < end && rays_.count < simd::kSeenBatch; ++i) {
+    const std::uint32_t face = points.faces[i];
+    if (face != last) last_has_normals = has_normals(face);
+    last = face;
+    if (!last_has_normals) continue;
+    numbers_[rays_.count] = static_cast<std::uint32_t>(i);
+    samples_[rays_.count] = points.samples[i];
+    face_ids_[rays_.count++] = face;
+  }
+  set_up();
+  return i;
+}
+
+bool ShadeBatch::has_normals(std::uint32_t face) const {
+  if (!smooth_) return false;
+  const Corners& normals = scene_.mesh().normal_corners[face];
+  return std::max({normals[0], normals[1], normals[2]}) != kNoIndex;
+}
+
+void ShadeBatch::set_up() {
+  slots_.assign(face_ids_, rays_.count, rays_.slots);
+  set_up_rays();
   set_up_faces();
 }
 
-void ShadeBatch::find_surfaces(bool smooth) {
-  const float K[3] = {camera_.x, camera_.y, camera_.z};
-  simd::find_surfaces(slots_.planes, faces_, rays_, K, smooth, points_);
-}
-
-void ShadeBatch::set_up_rays(const AskedPoints& points, std::size_t first) {
+void ShadeBatch::set_up_rays() {
   const auto columns = static_cast<std::uint32_t>(table_.columns.size());
+  std::uint32_t row = 0, begin = 0;  // its first sample
   for (std::size_t i = 0; i < rays_.count; ++i) {
-    const std::uint32_t sample = points.samples[first + i];
-    rays_.map_x[i] = table_.columns[sample % columns];
-    rays_.map_y[i] = table_.rows[sample / columns];
+    const std::uint32_t sample = samples_[i];
+    if (sample - begin >= columns) {
+      row = sample / columns;
+      begin = row * columns;
+    }
+    rays_.map_x[i] = table_.columns[sample - begin];
+    rays_.map_y[i] = table_.rows[row];
   }
   simd::ray_directions(table_.frame, rays_.map_x, rays_.map_y, rays_.count, rays_.direction[0], rays_.direction[1],
                        rays_.direction[2]);
@@ -47,18 +83,31 @@ void ShadeBatch::set_up_faces() {
   const float K[3] = {camera_.x, camera_.y, camera_.z};
   simd::set_up_planes(planes, K);
   simd::place_corners(planes, faces_);
+  some_smooth_ = false;
   for (std::size_t slot = 0; slot < planes.count; ++slot) {
     const std::uint32_t face = slots_.faces[slot];
     if (faces_.side[slot] == 0) faces_.side[slot] = side(triangle_of(scene_, face), camera_);
-    if (!smooth_) continue;
-    const Face corners = scene_.mesh().face(face);
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (int axis = 0; axis < 3; ++axis) {
-        faces_.file_normals[3 * k + static_cast<std::size_t>(axis)][slot] = corners.normals[k][axis];
-      }
+    if (smooth_) set_normals(slot, face);
+  }
+  simd::orient_faces(planes, some_smooth_, faces_);
+}
+
+// As Mesh::face gives them; a face that lacks one is not smooth, and gets none.
+void ShadeBatch::set_normals(std::size_t slot, std::uint32_t face) {
+  const Mesh& mesh = scene_.mesh();
+  const bool given = has_normals(face);
+  some_smooth_ = some_smooth_ || given;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector normal = given ? mesh.normals[mesh.normal_corners[face][k]] : Vector(0);
+    for (int axis = 0; axis < 3; ++axis) {
+      faces_.file_normals[3 * k + static_cast<std::size_t>(axis)][slot] = normal[axis];
     }
   }
-  simd::orient_faces(planes, smooth_, faces_);
+}
+
+void ShadeBatch::find_surfaces(bool smooth) {
+  const float K[3] = {camera_.x, camera_.y, camera_.z};
+  simd::find_surfaces(slots_.planes, faces_, rays_, K, smooth, points_);
 }
 
 bool ShadeBatch::is_moved(std::size_t i, const Vector& position) const {
@@ -67,7 +116,9 @@ bool ShadeBatch::is_moved(std::size_t i, const Vector& position) const {
   return side(triangle_of(scene_, slots_.faces[slot]), position) == static_cast<int>(faces_.side[slot]);
 }
 
-void ShadeBatch::find_moved(std::size_t first, std::vector<MovedPoint>& moved) {
+void ShadeBatch::find_moved(std::vector<MovedPoint>& moved) {
+  moved_count_ = 0;
+  if (!some_smooth_) return;
   find_surfaces(false);  // find_lifts needs no normals
   if (!simd::find_lifts(slots_.planes, faces_, rays_, Shader::kLeastLift, points_)) return;
   for (std::size_t i = 0; i < rays_.count; ++i) {
@@ -76,20 +127,28 @@ void ShadeBatch::find_moved(std::size_t first, std::vector<MovedPoint>& moved) {
                           static_cast<float>(points_.moved[2][i]));
     if (!is_moved(i, position)) continue;
     if (!is_finite(position)) throw Error("a point lifted for smooth shading is beyond the range of float32");
-    moved.push_back({position, static_cast<std::uint32_t>(first + i)});
+    moved.push_back({position, numbers_[i]});
+    moved_places_[moved_count_++] = static_cast<std::uint32_t>(i);
   }
 }
 
-// The numerator of Shader::shade's cosine, in the same order: where it is not above 0 neither is the cosine.
-bool ShadeBatch::may_add(const simd::LightSource& light, std::size_t i) const {
-  const double x = light.position[0] - points_.position[0][i], y = light.position[1] - points_.position[1][i],
-               z = light.position[2] - points_.position[2][i];
-  return points_.normal[0][i] * x + points_.normal[1][i] * y + points_.normal[2][i] * z > 0;
+void ShadeBatch::find_lights_of_moved(const std::vector<simd::LightSource>& lights, std::uint8_t* masks,
+                                      std::size_t stride) {
+  if (moved_count_ == 0) return;
+  simd::find_smooth_normals(faces_, rays_, points_);
+  for (std::size_t byte = 0; byte < stride; ++byte) {
+    const std::size_t first = byte * 8;
+    const int count = static_cast<int>(std::min<std::size_t>(8, lights.size() - first));
+    simd::find_lights_before(lights.data() + first, count, rays_.count, points_, lit_);
+    for (std::size_t k = 0; k < moved_count_; ++k) {
+      masks[k * stride + byte] = static_cast<std::uint8_t>(lit_[moved_places_[k]]);
+    }
+  }
 }
 
 void ShadeBatch::shade(const std::vector<simd::LightSource>& lights, bool inverse_square, const std::uint8_t* masks,
                        std::size_t stride) {
-  find_surfaces(smooth_);
+  find_surfaces(some_smooth_);
   for (auto& component : points_.radiance) std::fill_n(component, rays_.count, 0.0);
   for (std::size_t byte = 0; byte < stride; ++byte) {
     for (std::size_t i = 0; i < rays_.count; ++i) lit_[i] = masks[i * stride + byte];
@@ -99,10 +158,10 @@ void ShadeBatch::shade(const std::vector<simd::LightSource>& lights, bool invers
   }
 }
 
-void ShadeBatch::store_colors(const std::uint32_t* samples, std::span<Color> colors) const {
+void ShadeBatch::store_colors(std::span<Color> colors) const {
   for (std::size_t i = 0; i < rays_.count; ++i) {
-    colors[samples[i]] = {static_cast<float>(points_.radiance[0][i]), static_cast<float>(points_.radiance[1][i]),
-                          static_cast<float>(points_.radiance[2][i])};
+    colors[samples_[i]] = {static_cast<float>(points_.radiance[0][i]), static_cast<float>(points_.radiance[1][i]),
+                           static_cast<float>(points_.radiance[2][i])};
   }
 }
 

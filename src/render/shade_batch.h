@@ -27,38 +27,46 @@ class ShadeBatch {
   /// The scene and the rays must outlive it.
   ShadeBatch(const Scene& scene, const Vector& camera, const RayTable& rays, bool smooth);
 
-  /// Takes points first..first+count-1, at most simd::kSeenBatch.
-  void take(const AskedPoints& points, std::size_t first, std::size_t count);
+  /// Takes the points from number `first` on, at most simd::kSeenBatch, up to `end`. Returns how many.
+  std::size_t take(const AskedPoints& points, std::size_t first, std::size_t end);
 
-  /// Adds the moved points among them, with `first` as the number of the first point. Throws Error if one is not
-  /// finite.
-  void find_moved(std::size_t first, std::vector<MovedPoint>& moved);
+  /// The same, but leaves out points of faces without a normal at each corner. Returns the first that has not been
+  /// looked at.
+  std::size_t take_smooth(const AskedPoints& points, std::size_t first, std::size_t end);
 
-  /// Makes the shading normals that may_add needs.
-  void find_normals() { find_surfaces(smooth_); }
+  /// Adds the moved points among those taken. Throws Error if one is not finite.
+  void find_moved(std::vector<MovedPoint>& moved);
 
-  /// After find_normals: whether the light can add to the radiance of point i if nothing is between.
-  bool may_add(const simd::LightSource& light, std::size_t i) const;
+  /// For each point that find_moved added last, in that order: bits of the lights that can add to its radiance if
+  /// nothing is between, `stride` bytes a point.
+  void find_lights_of_moved(const std::vector<simd::LightSource>& lights, std::uint8_t* masks, std::size_t stride);
 
-  /// Radiance from the lights of each point's mask, `stride` bytes a point.
+  /// Radiance of all points taken, from the lights of each one's mask, `stride` bytes a point.
   void shade(const std::vector<simd::LightSource>& lights, bool inverse_square, const std::uint8_t* masks,
              std::size_t stride);
-  void store_colors(const std::uint32_t* samples, std::span<Color> colors) const;
+  void store_colors(std::span<Color> colors) const;
 
  private:
-  void set_up_rays(const AskedPoints& points, std::size_t first);
+  void set_up();
+  void set_up_rays();
   void set_up_faces();
+  void set_normals(std::size_t slot, std::uint32_t face);
   void find_surfaces(bool smooth);
+  bool has_normals(std::uint32_t face) const;
   bool is_moved(std::size_t i, const Vector& position) const;
 
   const Scene& scene_;
   Vector camera_;
   const RayTable& table_;
-  bool smooth_;
+  bool smooth_;               // if any face has normals
+  bool some_smooth_ = false;  // of the faces taken, some may be smooth
   FaceSlots slots_;
   simd::RayBatch rays_;
   simd::ShadedFaces faces_{};
   simd::ShadedPoints points_{};
+  std::uint32_t numbers_[simd::kSeenBatch], samples_[simd::kSeenBatch], face_ids_[simd::kSeenBatch];
+  std::uint32_t moved_places_[simd::kSeenBatch];  // in the batch, of the moved points
+  std::size_t moved_count_ = 0;
   std::int64_t lit_[simd::kSeenBatch] = {};
 };
 

@@ -24,9 +24,9 @@ std::vector<simd::LightSource> sources_of(const std::vector<Light>& lights) {
   return sources;
 }
 
-// Calls task(batch, first point) for all batches of the seen points; batches of one chunk in order, by one thread.
+// Calls task(batch, first point, one past the last, chunk) for all chunks of the seen points.
 template <class Task>
-void for_each_batch(const Scene& scene, const SampleGrid& grid, const AskedPoints& points, bool smooth,
+void for_each_chunk(const Scene& scene, const SampleGrid& grid, const AskedPoints& points, bool smooth,
                     const Executor& executor, const Task& task) {
   const RayTable rays(grid);
   std::vector<std::unique_ptr<ShadeBatch>> batches;
@@ -35,11 +35,7 @@ void for_each_batch(const Scene& scene, const SampleGrid& grid, const AskedPoint
   }
   executor.for_each(chunks_of(points.size()), [&](std::size_t chunk, int worker) {
     ShadeBatch& batch = *batches[static_cast<std::size_t>(worker)];
-    const std::size_t end = std::min(points.size(), (chunk + 1) * kChunk);
-    for (std::size_t first = chunk * kChunk; first < end; first += simd::kSeenBatch) {
-      batch.take(points, first, std::min(simd::kSeenBatch, end - first));
-      task(batch, first, chunk);
-    }
+    task(batch, chunk * kChunk, std::min(points.size(), (chunk + 1) * kChunk), chunk);
   });
 }
 
@@ -56,18 +52,13 @@ struct FoundPoints {
 };
 
 // Which lights to ask about the points from number `begin` on, which the batch has just added to `found`.
-void add_masks(ShadeBatch& batch, std::size_t first, std::size_t begin, const std::vector<simd::LightSource>& lights,
+void add_masks(ShadeBatch& batch, std::size_t begin, const std::vector<simd::LightSource>& lights,
                const std::vector<std::uint8_t>& all, bool asks_all, FoundPoints& found) {
-  if (begin == found.points.size()) return;
-  if (!asks_all) batch.find_normals();
+  const std::size_t stride = all.size();
+  found.masks.resize(found.points.size() * stride);
+  if (!asks_all) return batch.find_lights_of_moved(lights, found.masks.data() + begin * stride, stride);
   for (std::size_t k = begin; k < found.points.size(); ++k) {
-    found.masks.insert(found.masks.end(), all.begin(), all.end());
-    if (asks_all) continue;
-    std::uint8_t* mask = found.masks.data() + k * all.size();
-    for (std::size_t l = 0; l < lights.size(); ++l) {
-      if (batch.may_add(lights[l], found.points[k].owner - first)) continue;
-      mask[l / 8] = static_cast<std::uint8_t>(mask[l / 8] & ~(1u << (l % 8)));
-    }
+    std::copy(all.begin(), all.end(), found.masks.data() + k * stride);
   }
 }
 
@@ -115,12 +106,14 @@ MovedPoints find_moved_points(const Scene& scene, const SampleGrid& grid, SeenPo
   const std::vector<simd::LightSource> sources = sources_of(lights);
   const std::vector<std::uint8_t> all = full_mask(lights.size());
   std::vector<FoundPoints> found(chunks_of(seen.points.size()));
-  for_each_batch(scene, grid, seen.points, true, executor,
-                 [&](ShadeBatch& batch, std::size_t first, std::size_t chunk) {
-                   found[chunk].points.reserve(kChunk);
-                   const std::size_t begin = found[chunk].points.size();
-                   batch.find_moved(first, found[chunk].points);
-                   add_masks(batch, first, begin, sources, all, options.want_lights, found[chunk]);
+  for_each_chunk(scene, grid, seen.points, true, executor,
+                 [&](ShadeBatch& batch, std::size_t first, std::size_t end, std::size_t chunk) {
+                   while (first < end) {
+                     first = batch.take_smooth(seen.points, first, end);
+                     const std::size_t begin = found[chunk].points.size();
+                     batch.find_moved(found[chunk].points);
+                     add_masks(batch, begin, sources, all, options.want_lights, found[chunk]);
+                   }
                  });
   join(found, executor, moved, seen);
   return moved;
@@ -130,10 +123,13 @@ void shade_points(const Scene& scene, const SampleGrid& grid, const SeenPoints& 
                   const Renderer::Options& options, const Executor& executor, std::span<Color> colors) {
   const std::vector<simd::LightSource> sources = sources_of(lights);
   const bool inverse_square = options.falloff == Renderer::Falloff::InverseSquare;
-  for_each_batch(scene, grid, seen.points, options.normals == Renderer::Normals::Smooth, executor,
-                 [&](ShadeBatch& batch, std::size_t first, std::size_t) {
-                   batch.shade(sources, inverse_square, seen.masks.data() + first * seen.stride, seen.stride);
-                   batch.store_colors(seen.points.samples.data() + first, colors);
+  for_each_chunk(scene, grid, seen.points, options.normals == Renderer::Normals::Smooth, executor,
+                 [&](ShadeBatch& batch, std::size_t first, std::size_t end, std::size_t) {
+                   for (std::size_t count = 0; first < end; first += count) {
+                     count = batch.take(seen.points, first, end);
+                     batch.shade(sources, inverse_square, seen.masks.data() + first * seen.stride, seen.stride);
+                     batch.store_colors(colors);
+                   }
                  });
 }
 

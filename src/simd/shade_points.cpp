@@ -137,6 +137,29 @@ bool find_lifts(const PlaneBatch& planes, const ShadedFaces& faces, const RayBat
   return any;
 }
 
+void find_smooth_normals(const ShadedFaces& faces, const RayBatch& rays, ShadedPoints& points) {
+  for (std::size_t i = 0; i < rays.count; i += hn::Lanes(D())) {
+    const auto slots = hn::LoadU(Places(), rays.slots + i);
+    const Three flat = gather(faces.towards, slots);
+    store(smooth_normal(faces, slots, load(points.weights, i), flat), points.normal, i);
+  }
+}
+
+// Where the numerator of add_lights' cosine, in the same order, is not above 0 neither is the cosine.
+void find_lights_before(const LightSource* lights, int light_count, std::size_t count, const ShadedPoints& points,
+                        std::int64_t* bits) {
+  for (std::size_t i = 0; i < count; i += hn::Lanes(D())) {
+    const Three position = load(points.position, i), normal = load(points.normal, i);
+    auto found = hn::Zero(Places());
+    for (int l = 0; l < light_count; ++l) {
+      const Three to_light = minus(point(lights[l].position), position);
+      const auto before = hn::RebindMask(Places(), hn::Gt(dot(normal, to_light), hn::Zero(D())));
+      found = hn::Or(found, hn::IfThenElseZero(before, hn::Set(Places(), std::int64_t{1} << l)));
+    }
+    hn::StoreU(found, Places(), bits + i);
+  }
+}
+
 void add_lights(const LightSource* lights, int light_count, bool inverse_square, const std::int64_t* lit,
                 std::size_t count, ShadedPoints& points) {
   const V zero = hn::Zero(D());
@@ -175,6 +198,15 @@ void find_surfaces(const PlaneBatch& planes, const ShadedFaces& faces, const Ray
 bool find_lifts(const PlaneBatch& planes, const ShadedFaces& faces, const RayBatch& rays, double least_lift,
                 ShadedPoints& points) {
   return FACEMAP_DISPATCH(find_lifts)(planes, faces, rays, least_lift, points);
+}
+
+void find_smooth_normals(const ShadedFaces& faces, const RayBatch& rays, ShadedPoints& points) {
+  FACEMAP_DISPATCH(find_smooth_normals)(faces, rays, points);
+}
+
+void find_lights_before(const LightSource* lights, int light_count, std::size_t count, const ShadedPoints& points,
+                        std::int64_t* bits) {
+  FACEMAP_DISPATCH(find_lights_before)(lights, light_count, count, points, bits);
 }
 
 void add_lights(const LightSource* lights, int light_count, bool inverse_square, const std::int64_t* lit,

@@ -31,11 +31,19 @@ void find_surfaces(const PlaneBatch& planes, const ShadedFaces& faces, const Ray
 bool find_lifts(const PlaneBatch& planes, const ShadedFaces& faces, const RayBatch& rays, double least_lift,
                 ShadedPoints& points);
 
+/// After find_surfaces: fills normal with smooth ones, as find_surfaces does if asked for them.
+void find_smooth_normals(const ShadedFaces& faces, const RayBatch& rays, ShadedPoints& points);
+
 struct LightSource {
   double position[3];
   double color[3];
   double intensity;
 };
+
+/// Bit l of bits[i]: lights[l], of at most 8, is in front of the point's shading normal, so that add_lights may add
+/// something.
+void find_lights_before(const LightSource* lights, int light_count, std::size_t count, const ShadedPoints& points,
+                        std::int64_t* bits);
 
 /// Adds to radiance what lights[0..light_count), at most 8, send to the points: light l where bit l of lit[i] is set.
 void add_lights(const LightSource* lights, int light_count, bool inverse_square, const std::int64_t* lit,
