@@ -67,7 +67,8 @@ AskedPoints subset(const AskedPoints& points, const std::vector<std::uint32_t>& 
 
 }  // namespace
 
-void clear_blocked(const LightWork& work, const SampleGrid& grid, SeenPoints& seen, Counters& counters) {
+void clear_blocked(const LightWork& work, const SampleGrid& grid, const MovedPoints& moved, SeenPoints& seen,
+                   Counters& counters) {
   const Scene& scene = work.scene;
   const AskedPoints& points = seen.points;
   if (points.size() == 0) return;
@@ -79,6 +80,10 @@ void clear_blocked(const LightWork& work, const SampleGrid& grid, SeenPoints& se
                    const Vector& light = work.lights[l];
                    FacePairs pairs(scene);
                    const auto is_between = [&](std::size_t point, std::uint32_t face, int face_side) {
+                     if (points.faces[point] == kNoOwnFace) {
+                       const GivenPoint given{moved.position_of(static_cast<std::uint32_t>(point))};
+                       return blocks(triangle_of(scene, face), face_side, light, given, &own);
+                     }
                      if (pairs.is_clear(points.faces[point], face, face_side, own)) return false;
                      return blocks(triangle_of(scene, face), face_side, light,
                                    true_point(scene, grid, points.samples[point], points.faces[point]), &own);
@@ -106,50 +111,28 @@ void clear_blocked(const LightWork& work, const SampleGrid& grid, SeenPoints& se
                  });
 }
 
-void clear_blocked(const LightWork& work, const AskedPoints& points, const std::vector<Vector>& positions,
-                   std::size_t stride, std::vector<std::uint8_t>& masks, Counters& counters) {
-  if (positions.empty()) return;
-  for_each_light(
-      work, stride, masks, counters, [&](std::size_t l, const MaskBit& mask, ShadowScratch& scratch, Counters& own) {
-        const auto is_between = [&](std::size_t point, std::uint32_t face, int face_side) {
-          return blocks(triangle_of(work.scene, face), face_side, work.lights[l], GivenPoint{positions[point]}, &own);
-        };
-        clear_blocked(work.scene, work.lights[l], points, mask, nullptr, is_between, scratch, &own);
-      });
-}
-
 void clear_blocked_by_lists(const std::vector<PointLight>& lists, const Scene& scene, const SampleGrid& grid,
-                            const Executor& executor, SeenPoints& seen, Counters& counters) {
+                            const Executor& executor, const MovedPoints& moved, SeenPoints& seen, Counters& counters) {
   const AskedPoints& points = seen.points;
   std::mutex merging;
   for_ranges(executor, points.size(), kFewestPoints, [&](std::size_t first, std::size_t last, int) {
     Counters own;
-    for (std::size_t i = first; i < last; ++i) {
-      const TruePoint p = true_point(scene, grid, points.samples[i], points.faces[i]);
-      const SurfacePoint point{p.K, p.d, p.face, static_cast<FaceId>(points.faces[i]), p.s};
+    const auto clear_lights = [&](std::size_t i, const auto& is_blocked) {
       for (std::size_t l = 0; l < lists.size(); ++l) {
         std::uint8_t& mask = seen.masks[i * seen.stride + l / 8];
         const auto bit = static_cast<std::uint8_t>(1u << (l % 8));
-        if ((mask & bit) != 0 && lists[l].is_blocked(point, &own)) mask = static_cast<std::uint8_t>(mask & ~bit);
+        if ((mask & bit) != 0 && is_blocked(lists[l])) mask = static_cast<std::uint8_t>(mask & ~bit);
       }
-    }
-    const std::scoped_lock lock(merging);
-    counters += own;
-  });
-}
-
-void clear_blocked_by_lists(const std::vector<PointLight>& lists, const std::vector<Vector>& positions,
-                            std::size_t stride, const Executor& executor, std::vector<std::uint8_t>& masks,
-                            Counters& counters) {
-  std::mutex merging;
-  for_ranges(executor, positions.size(), kFewestPoints, [&](std::size_t first, std::size_t last, int) {
-    Counters own;
+    };
     for (std::size_t i = first; i < last; ++i) {
-      for (std::size_t l = 0; l < lists.size(); ++l) {
-        std::uint8_t& mask = masks[i * stride + l / 8];
-        if ((mask >> (l % 8) & 1) == 0) continue;
-        if (!lists[l].get_lighten_up(positions[i], &own)) mask = static_cast<std::uint8_t>(mask & ~(1u << (l % 8)));
+      if (points.faces[i] == kNoOwnFace) {
+        const Vector& position = moved.position_of(static_cast<std::uint32_t>(i));
+        clear_lights(i, [&](const PointLight& light) { return !light.get_lighten_up(position, &own); });
+        continue;
       }
+      const TruePoint p = true_point(scene, grid, points.samples[i], points.faces[i]);
+      const SurfacePoint point{p.K, p.d, p.face, static_cast<FaceId>(points.faces[i]), p.s};
+      clear_lights(i, [&](const PointLight& light) { return light.is_blocked(point, &own); });
     }
     const std::scoped_lock lock(merging);
     counters += own;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "parallel/executor.h"
+#include "picture/moved_points.h"
 #include "picture/sample_grid.h"
 #include "picture/seen_points.h"
 #include "picture/shadows.h"
@@ -26,18 +27,13 @@ struct LightWork {
   std::function<void(double)> report;  ///< called when a light is done, with the share of lights done; may throw
 };
 
-/// Clears bit l of seen.masks where something stands between light l and the point, the transposed way. Exact.
-void clear_blocked(const LightWork& work, const SampleGrid& grid, SeenPoints& seen, Counters& counters);
+/// Clears bit l of seen.masks where something stands between light l and the point, the transposed way. Exact. Moved
+/// points have been put in their places (put_in_place); with closed parts, seen.loose has those of find_hidden_points.
+void clear_blocked(const LightWork& work, const SampleGrid& grid, const MovedPoints& moved, SeenPoints& seen,
+                   Counters& counters);
 
-/// The same for float32 points that lie on no face. `points` holds the same positions, rounded.
-void clear_blocked(const LightWork& work, const AskedPoints& points, const std::vector<Vector>& positions,
-                   std::size_t stride, std::vector<std::uint8_t>& masks, Counters& counters);
-
-/// The same two, each point asked by itself of each light's lists. One map a light.
+/// The same, each point asked by itself of each light's lists. One map a light.
 void clear_blocked_by_lists(const std::vector<PointLight>& lists, const Scene& scene, const SampleGrid& grid,
-                            const Executor& executor, SeenPoints& seen, Counters& counters);
-void clear_blocked_by_lists(const std::vector<PointLight>& lists, const std::vector<Vector>& positions,
-                            std::size_t stride, const Executor& executor, std::vector<std::uint8_t>& masks,
-                            Counters& counters);
+                            const Executor& executor, const MovedPoints& moved, SeenPoints& seen, Counters& counters);
 
 }  // namespace facemap

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <memory>
 
-#include "picture/place_points.h"
 #include "render/shade_batch.h"
 
 namespace facemap {
@@ -63,45 +62,37 @@ void add_masks(ShadeBatch& batch, std::size_t begin, const std::vector<simd::Lig
 }
 
 // The moved points of all chunks, one after the other; `found` is used up.
-void join(std::vector<FoundPoints>& found, const Executor& executor, MovedPoints& moved, SeenPoints& seen) {
+MovedPoints join(std::vector<FoundPoints>& found, const Executor& executor, SeenPoints& seen) {
   std::vector<std::size_t> starts(found.size() + 1);
   for (std::size_t chunk = 0; chunk < found.size(); ++chunk) {
     starts[chunk + 1] = starts[chunk] + found[chunk].points.size();
   }
+  MovedPoints moved;
+  moved.numbers.resize(starts.back());
   moved.positions.resize(starts.back());
-  moved.owners.resize(starts.back());
-  moved.points.samples.resize(starts.back());
-  moved.masks.resize(starts.back() * seen.stride);
-  const std::vector<std::uint8_t> none(seen.stride);
+  moved.faces.resize(starts.back());
   executor.for_each(found.size(), [&](std::size_t chunk, int) {
     std::size_t i = starts[chunk];
-    std::copy(found[chunk].masks.begin(), found[chunk].masks.end(), moved.masks.data() + i * seen.stride);
+    const std::uint8_t* mask = found[chunk].masks.data();
     for (const MovedPoint& point : found[chunk].points) {
+      moved.numbers[i] = point.owner;
       moved.positions[i] = point.position;
-      moved.owners[i] = point.owner;
-      moved.points.samples[i] = seen.points.samples[point.owner];
-      std::copy(none.begin(), none.end(), seen.masks.data() + point.owner * seen.stride);
+      moved.faces[i] = seen.points.faces[point.owner];
+      std::copy_n(mask, seen.stride, seen.masks.data() + point.owner * seen.stride);
+      mask += seen.stride;
       ++i;
     }
     found[chunk] = {};
   });
-  place_points(moved.positions, executor, moved.points);
+  return moved;
 }
 
 }  // namespace
 
-void put_back_masks(const MovedPoints& moved, SeenPoints& seen) {
-  const std::size_t stride = seen.stride;
-  for (std::size_t i = 0; i < moved.owners.size(); ++i) {
-    std::copy_n(moved.masks.data() + i * stride, stride, seen.masks.data() + moved.owners[i] * stride);
-  }
-}
-
 MovedPoints find_moved_points(const Scene& scene, const SampleGrid& grid, SeenPoints& seen,
                               const std::vector<Light>& lights, const Renderer::Options& options,
                               const Executor& executor) {
-  MovedPoints moved;
-  if (options.normals == Renderer::Normals::Flat || !options.shadow_terminator_fix) return moved;
+  if (options.normals == Renderer::Normals::Flat || !options.shadow_terminator_fix) return {};
 
   const std::vector<simd::LightSource> sources = sources_of(lights);
   const std::vector<std::uint8_t> all = full_mask(lights.size());
@@ -115,8 +106,7 @@ MovedPoints find_moved_points(const Scene& scene, const SampleGrid& grid, SeenPo
                      add_masks(batch, begin, sources, all, options.want_lights, found[chunk]);
                    }
                  });
-  join(found, executor, moved, seen);
-  return moved;
+  return join(found, executor, seen);
 }
 
 void shade_points(const Scene& scene, const SampleGrid& grid, const SeenPoints& seen, const std::vector<Light>& lights,

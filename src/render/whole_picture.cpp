@@ -8,7 +8,9 @@
 
 #include "map/face_planes.h"
 #include "math/exact_sign.h"
+#include "picture/hidden_points.h"
 #include "picture/lit_points.h"
+#include "picture/moved_points.h"
 #include "picture/nearest_faces.h"
 #include "picture/sample_grid.h"
 #include "picture/seen_points.h"
@@ -172,29 +174,48 @@ WholePicture::Seen WholePicture::see(const SampleGrid& grid) {
   return {grid, std::move(nearest.faces), std::move(seen)};
 }
 
+// What the first light of a scene needs, and what moved points do if there are closed parts: by two tasks.
+void WholePicture::prepare_lights(const SampleGrid& grid, const MovedPoints& moved, SeenPoints& seen) {
+  const bool makes_closed = state_.closed == nullptr;
+  const bool finds_hidden = !moved.numbers.empty() && (makes_closed || state_.closed->any());
+  std::vector<std::uint32_t> hidden;
+  Counters counters;
+  executor_.for_each(2, [&](std::size_t task, int worker) {
+    if (task == 0 && finds_hidden) {
+      hidden = find_hidden_points(scene_, grid.frame.position(), seen.points, moved,
+                                  state_.scratch[static_cast<std::size_t>(worker)], counters);
+    }
+    if (task == 1 && makes_closed) state_.closed = std::make_unique<ClosedParts>(scene_, executor_);
+  });
+  statistics_.camera_tests += counters;
+  std::vector<std::uint32_t> loose(seen.loose.size() + hidden.size());
+  std::merge(seen.loose.begin(), seen.loose.end(), hidden.begin(), hidden.end(), loose.begin());
+  loose.erase(std::unique(loose.begin(), loose.end()), loose.end());
+  seen.loose = std::move(loose);
+}
+
 void WholePicture::ask_lights(const SampleGrid& grid, SeenPoints& seen) {
   report(0.2, "light maps");
+  const Stopwatch moved_time;
+  const MovedPoints moved = find_moved_points(scene_, grid, seen, lights_, options_, executor_);
+  put_in_place(moved, executor_, seen.points);
+  statistics_.light_queries += count_bits(seen.masks);
+  statistics_.shade_ms += moved_time.milliseconds();
   const Stopwatch closed_time;
-  if (lists_ == nullptr && !state_.closed) state_.closed = std::make_unique<ClosedParts>(scene_, executor_);
+  if (lists_ == nullptr) prepare_lights(grid, moved, seen);
   statistics_.light_maps_ms += closed_time.milliseconds();
 
   report(0.3, "shade");
   const Stopwatch light_time;
-  MovedPoints moved = find_moved_points(scene_, grid, seen, lights_, options_, executor_);
-  statistics_.light_queries += count_bits(seen.masks);
-  statistics_.light_queries += count_bits(moved.masks);
-  Counters& counters = statistics_.light_tests;
   if (lists_ != nullptr) {
-    clear_blocked_by_lists(*lists_, scene_, grid, executor_, seen, counters);
-    clear_blocked_by_lists(*lists_, moved.positions, seen.stride, executor_, moved.masks, counters);
+    clear_blocked_by_lists(*lists_, scene_, grid, executor_, moved, seen, statistics_.light_tests);
   } else {
     const std::vector<Vector> lights = positions_of(lights_);
     const LightWork work{scene_,    lights,         state_.closed.get(),
                          executor_, state_.scratch, [this](double share) { report(0.3 + 0.5 * share, "shade"); }};
-    clear_blocked(work, grid, seen, counters);
-    clear_blocked(work, moved.points, moved.positions, seen.stride, moved.masks, counters);
+    clear_blocked(work, grid, moved, seen, statistics_.light_tests);
   }
-  put_back_masks(moved, seen);
+  put_back_faces(moved, seen.points);
   statistics_.shade_ms += light_time.milliseconds();
 }
 

@@ -41,6 +41,7 @@ class WholePicture {
   struct Seen;
   std::vector<SampleGrid> bands(int per_side) const;
   Seen see(const SampleGrid& grid);
+  void prepare_lights(const SampleGrid& grid, const MovedPoints& moved, SeenPoints& seen);
   void ask_lights(const SampleGrid& grid, SeenPoints& seen);
   Image empty_image(int per_side) const;
   void put_planes(Seen&& seen, bool ids, bool depths, bool lights, Image& image) const;

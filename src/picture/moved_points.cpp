@@ -1,0 +1,81 @@
+#include "picture/moved_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "math/dvector.h"
+
+namespace facemap {
+namespace {
+
+constexpr std::size_t kFewestPoints = 16384;  // a task
+constexpr double kMostSteps = 0x1p30;         // of a coordinate
+
+// To nearest, ties to even, for magnitudes up to 2^31: what is added leaves no room for a fraction.
+std::int32_t rounded(double x) {
+  constexpr double kMagic = 0x1.8p52;
+  return static_cast<std::int32_t>((x + kMagic) - kMagic);
+}
+
+// The largest coordinate of a position, in steps from the origin.
+double most_steps(const std::vector<Vector>& positions, const Executor& executor, const AskedPoints& points) {
+  std::mutex merging;
+  double most = 0;
+  for_ranges(executor, positions.size(), kFewestPoints, [&](std::size_t first, std::size_t last, int) {
+    double own = 0;
+    for (std::size_t i = first; i < last; ++i) {
+      const DVector offset = DVector(positions[i]) - points.origin;
+      own = std::max({own, std::fabs(offset.x), std::fabs(offset.y), std::fabs(offset.z)});
+    }
+    const std::scoped_lock lock(merging);
+    most = std::max(most, own);
+  });
+  return most / points.step;
+}
+
+// Half a step for each coordinate, sqrt(3) / 2 < 0.8661 for three; a position's difference from the origin is rounded
+// by 2^-53 of at most 2^30 steps.
+constexpr double kRoundingError = 0.8662;  // steps
+
+// Doubles the step `times` times.
+void coarsen(int times, const Executor& executor, AskedPoints& points) {
+  const double share = std::ldexp(1.0, -times);
+  points.step /= share;
+  points.error += kRoundingError * points.step;
+  for (auto* coordinates : {&points.x, &points.y, &points.z}) {
+    for_ranges(executor, coordinates->size(), kFewestPoints, [&](std::size_t first, std::size_t last, int) {
+      for (std::size_t i = first; i < last; ++i) (*coordinates)[i] = rounded((*coordinates)[i] * share);
+    });
+  }
+}
+
+}  // namespace
+
+const Vector& MovedPoints::position_of(std::uint32_t number) const {
+  const auto place = std::lower_bound(numbers.begin(), numbers.end(), number) - numbers.begin();
+  return positions[static_cast<std::size_t>(place)];
+}
+
+void put_in_place(const MovedPoints& moved, const Executor& executor, AskedPoints& points) {
+  int times = 0;
+  for (double steps = most_steps(moved.positions, executor, points); steps >= kMostSteps; steps *= 0.5) ++times;
+  if (times > 0) coarsen(times, executor, points);
+  points.error = std::max(points.error, kRoundingError * points.step);
+  for_ranges(executor, moved.numbers.size(), kFewestPoints, [&](std::size_t first, std::size_t last, int) {
+    for (std::size_t k = first; k < last; ++k) {
+      const std::uint32_t i = moved.numbers[k];
+      const DVector steps = (DVector(moved.positions[k]) - points.origin) * (1 / points.step);
+      points.x[i] = rounded(steps.x);
+      points.y[i] = rounded(steps.y);
+      points.z[i] = rounded(steps.z);
+      points.faces[i] = kNoOwnFace;
+    }
+  });
+}
+
+void put_back_faces(const MovedPoints& moved, AskedPoints& points) {
+  for (std::size_t k = 0; k < moved.numbers.size(); ++k) points.faces[moved.numbers[k]] = moved.faces[k];
+}
+
+}  // namespace facemap
