@@ -25,11 +25,14 @@ constexpr std::size_t kHugePage = std::size_t{1} << 21;
 // The heap grows by so much at a time. It is address space: what is not touched takes no memory.
 constexpr int kHeapStep = 1 << 26;
 
-// One heap for all threads, which keeps what is given back, and takes blocks below a huge page, too, which malloc would
-// map and unmap one by one.
+// Blocks from this size on are mapped and unmapped one by one: the most that malloc takes for it.
+constexpr std::size_t kMappedBlock = std::size_t{1} << 25;
+
+// One heap for all threads, which keeps what is given back: memory that is used again need not be cleared again.
 const bool has_heap = [] {
   return ::mallopt(M_ARENA_MAX, 1) == 1 && ::mallopt(M_TOP_PAD, kHeapStep) == 1 &&
-         ::mallopt(M_TRIM_THRESHOLD, kHeapStep) == 1 && ::mallopt(M_MMAP_THRESHOLD, static_cast<int>(kHugePage)) == 1;
+         ::mallopt(M_TRIM_THRESHOLD, kHeapStep) == 1 &&
+         ::mallopt(M_MMAP_THRESHOLD, static_cast<int>(kMappedBlock)) == 1;
 }();
 
 // Where the heap ended when huge pages were asked for last.
@@ -49,6 +52,8 @@ void advise_heap(const void* block) noexcept {
 
 #else
 
+constexpr std::size_t kMappedBlock = kHugePage;
+
 void advise_heap(const void*) noexcept {}
 
 #endif
@@ -59,7 +64,7 @@ void* allocate_small(std::size_t size, std::size_t alignment) noexcept {
 }
 
 void* allocate(std::size_t size, std::size_t alignment) noexcept {
-  if (size < kHugePage) {
+  if (size < kMappedBlock) {
     void* const block = allocate_small(size, alignment);
     if (block != nullptr) advise_heap(block);
     return block;
