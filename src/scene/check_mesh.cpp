@@ -9,7 +9,7 @@ namespace facemap {
 
 namespace {
 
-constexpr std::size_t kLeastPiece = 1 << 15;  ///< elements worth a task of their own
+constexpr std::size_t kLeastPiece = 1 << 13;  ///< elements worth a task of their own
 
 /// Throws by `complain(i)` for the first element of 0..count-1 that is not right; `all_right(first, last)` is quick.
 template <class AllRight, class Complain>

@@ -11,6 +11,12 @@
 
 namespace facemap {
 
+namespace {
+
+constexpr std::size_t kLargeFile = std::size_t{1} << 25;  ///< bytes: its pages are given back as they have been read
+
+}  // namespace
+
 OBJ::OBJ(ObjReader&& reader)
     : mesh_(std::move(reader.mesh)), materials_(std::move(reader.materials)), report_(std::move(reader.report)) {}
 
@@ -19,7 +25,8 @@ OBJ OBJ::load(const std::filesystem::path& path, const Limits& limits) {
   const std::string name = path.string();
   std::optional<FileMapping> file(std::in_place, path, limits.max_bytes);
   ObjReader reader(file->text(), name, path.has_parent_path() ? path.parent_path() : ".", limits);
-  reader.read([&file](std::string_view part) { file->release(part); });
+  const bool is_large = file->text().size() >= kLargeFile;
+  reader.read(is_large ? [&file](std::string_view part) { file->release(part); } : ObjChunks::Release());
   file.reset();  // before finish() takes memory of its own
   reader.finish();
   return OBJ(std::move(reader));

@@ -13,7 +13,7 @@ namespace facemap {
 
 namespace {
 
-constexpr std::size_t kLeastPiece = 1 << 15;  ///< items worth a task of their own
+constexpr std::size_t kLeastPiece = 1 << 13;  ///< items worth a task of their own
 
 /// What a face is found to be before duplicates are looked for.
 enum Oddity : std::uint8_t { kRepeatedVertex, kZeroArea, kHasArea };

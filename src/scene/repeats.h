@@ -64,7 +64,7 @@ class RepeatFinder {
   };
 
   static constexpr std::size_t kPartSize = 4096;
-  static constexpr std::size_t kPieceSize = 1 << 15;
+  static constexpr std::size_t kPieceSize = 1 << 13;
   static constexpr std::uint32_t kEmpty = 0xffffffffu;
 
   static std::uint32_t hash(const Key& key) {

@@ -19,7 +19,7 @@ namespace facemap {
 namespace {
 
 constexpr std::size_t kSmallScene = 1 << 16;  ///< faces below which threads cost more than they gain
-constexpr std::size_t kLeastPiece = 1 << 15;  ///< faces worth a task of their own
+constexpr std::size_t kLeastPiece = 1 << 13;  ///< faces worth a task of their own
 
 /// The lower-case extension of a file's name, with its point.
 std::string extension_of(const std::filesystem::path& path) {

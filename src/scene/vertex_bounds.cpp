@@ -11,7 +11,7 @@ namespace facemap {
 
 namespace {
 
-constexpr std::size_t kLeastPiece = 1 << 15;  ///< vertices or faces worth a task of their own
+constexpr std::size_t kLeastPiece = 1 << 13;  ///< vertices or faces worth a task of their own
 
 }  // namespace
 
