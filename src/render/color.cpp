@@ -1,7 +1,9 @@
 #include <facemap/color.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 #include <limits>
 
 #include "math/elementary.h"
@@ -42,13 +44,15 @@ class LevelTable {
   }
 
   std::uint32_t level(float linear) const {
-    if (!(linear > 0)) return 0;
-    if (linear >= 1) return kLevels - 1;
-    const std::uint32_t below = at_bin_start_[static_cast<int>(linear * kBins)];
-    return below + (linear >= half_way_[below + 1] ? 1 : 0);
+    // Without branches: what a pixel holds is hard to foresee. NaN is 0.
+    const float positive = linear > 0 ? linear : 0, inside = positive < kLast ? positive : kLast;
+    const std::uint32_t below = at_bin_start_[static_cast<int>(inside * kBins)];
+    return below + (inside >= half_way_[below + 1]);
   }
 
  private:
+  static constexpr float kLast = 1 - 0x1p-24f;  ///< the float before 1
+
   std::array<float, kLevels + 1> half_way_{};  ///< [k]: where level k begins, linear; [0] is not used
   std::array<std::uint8_t, kBins> at_bin_start_{};
 };
@@ -64,15 +68,35 @@ std::uint32_t Color::to_24_bit() const {
   return level_table().level(r) << 16 | level_table().level(g) << 8 | level_table().level(b);
 }
 
-void encode_srgb(const Color* colors, std::size_t count, std::uint8_t* bytes) {
+namespace {
+
+/// Colours from `first` to `end` of an array, whose bytes begin at `bytes`.
+void encode(const Color* colors, std::size_t first, std::size_t end, std::uint8_t* bytes) {
   const LevelTable& table = level_table();
-  for (std::size_t i = 0; i < count; ++i) {
+  std::uint8_t* at = bytes + 3 * first;
+  for (std::size_t i = first; i < end; ++i) {
     const Color& color = colors[i];
     if (i > 0 && color == colors[i - 1]) {  // often
-      for (int k = 0; k < 3; ++k, ++bytes) *bytes = bytes[-3];
+      for (int k = 0; k < 3; ++k, ++at) *at = at[-3];
       continue;
     }
-    for (const float channel : {color.r, color.g, color.b}) *bytes++ = static_cast<std::uint8_t>(table.level(channel));
+    for (const float channel : {color.r, color.g, color.b}) *at++ = static_cast<std::uint8_t>(table.level(channel));
+  }
+}
+
+}  // namespace
+
+void encode_srgb(const Color* colors, std::size_t count, std::uint8_t* bytes) {
+  constexpr std::size_t kRun = 16;  // pixels: background goes on for longer
+  for (std::size_t first = 0; first < count; first += kRun) {
+    const std::size_t end = std::min(count, first + kRun);
+    const bool repeats = first > 0 && end - first == kRun &&
+                         std::memcmp(colors + first, colors + first - kRun, kRun * sizeof(Color)) == 0;
+    if (repeats) {
+      std::memcpy(bytes + 3 * first, bytes + 3 * (first - kRun), 3 * kRun);
+    } else {
+      encode(colors, first, end, bytes);
+    }
   }
 }
 
