@@ -38,7 +38,6 @@ class PlaneRaster {
   }
 
   NearestFaces run(Counters* counters) {
-    std::fill_n(w_.data(), grid_.count(), 0.0f);
     nearest_.faces.assign(grid_.count(), kNoFace);
     project();
     if (executor_.threads() == 1) {
@@ -76,6 +75,7 @@ class PlaneRaster {
   void draw_all_at_once() {
     bands_.push_back({0, grid_.rows() - 1, {}, {}, {}, 0});
     BoxQueues queues(kChunk);
+    clear_depths(bands_[0]);
     for (std::size_t first = 0; first < scene_.face_count(); first += kChunk) {
       find_boxes(first, queues);
       for (int q = 0; q < BoxQueues::kQueues; ++q) draw(q, queues[q], bands_[0]);
@@ -102,7 +102,14 @@ class PlaneRaster {
     });
   }
 
+  void clear_depths(const Band& band) {
+    const auto columns = static_cast<std::size_t>(grid_.columns());
+    const auto rows = static_cast<std::size_t>(band.last_row + 1 - band.first_row);
+    std::fill_n(w_.data() + static_cast<std::size_t>(band.first_row) * columns, rows * columns, 0.0f);
+  }
+
   void draw_band(const std::vector<WaitingBoxes>& waiting, BoxQueues& queues, Band& band) {
+    clear_depths(band);
     for (const WaitingBoxes& boxes : waiting) {
       queues.fresh();
       for (int q = 0; q < BoxQueues::kQueues; ++q) {

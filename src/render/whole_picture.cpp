@@ -174,18 +174,20 @@ WholePicture::Seen WholePicture::see(const SampleGrid& grid) {
   return {grid, std::move(nearest.faces), std::move(seen)};
 }
 
-// What the first light of a scene needs, and what moved points do if there are closed parts: by two tasks.
+// What the first light of a scene needs, what moved points do if there are closed parts, and fresh memory for the
+// colours: by tasks of their own.
 void WholePicture::prepare_lights(const SampleGrid& grid, const MovedPoints& moved, SeenPoints& seen) {
   const bool makes_closed = state_.closed == nullptr;
   const bool finds_hidden = !moved.numbers.empty() && (makes_closed || state_.closed->any());
   std::vector<std::uint32_t> hidden;
   Counters counters;
-  executor_.for_each(2, [&](std::size_t task, int worker) {
+  executor_.for_each(3, [&](std::size_t task, int worker) {
     if (task == 0 && finds_hidden) {
       hidden = find_hidden_points(scene_, grid.frame.position(), seen.points, moved,
                                   state_.scratch[static_cast<std::size_t>(worker)], counters);
     }
     if (task == 1 && makes_closed) state_.closed = std::make_unique<ClosedParts>(scene_, executor_);
+    if (task == 2 && paints_) colors_.assign(grid.count(), options_.background);
   });
   statistics_.camera_tests += counters;
   std::vector<std::uint32_t> loose(seen.loose.size() + hidden.size());
@@ -253,6 +255,7 @@ Image WholePicture::look() {
 }
 
 Image WholePicture::paint() {
+  paints_ = true;
   Image image = empty_image(1);
   const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   const bool wants_planes = options_.want_ids || options_.want_depths || options_.want_lights;
@@ -266,10 +269,10 @@ Image WholePicture::paint() {
     Seen seen = see(grid);
     const Stopwatch shade_time;
     report(0.8, "shade");
-    std::vector<Color> colors(grid.count(), options_.background);
-    shade_points(scene_, grid, seen.points, lights_, options_, executor_, colors);
-    if (!centres_are_sampled) colors = mean_of_samples(grid, colors, executor_);
-    put_band(std::move(colors),
+    if (lists_ != nullptr) colors_.assign(grid.count(), options_.background);
+    shade_points(scene_, grid, seen.points, lights_, options_, executor_, colors_);
+    if (!centres_are_sampled) colors_ = mean_of_samples(grid, colors_, executor_);
+    put_band(std::move(colors_),
              static_cast<std::size_t>(grid.first_row / options_.samples) * static_cast<std::size_t>(image.width),
              pixels, image.pixels);
     if (wants_planes && centres_are_sampled) {
@@ -278,6 +281,7 @@ Image WholePicture::paint() {
     statistics_.shade_ms += shade_time.milliseconds();
     ++bands_done_;
   }
+  paints_ = false;
   for (const SampleGrid& grid : centres) {
     put_planes(see(grid), options_.want_ids, options_.want_depths, options_.want_lights, image);
     ++bands_done_;

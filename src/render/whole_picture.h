@@ -56,6 +56,8 @@ class WholePicture {
   const std::vector<PointLight>* lists_;
   Renderer::Statistics& statistics_;
   Report report_;
+  bool paints_ = false;
+  std::vector<Color> colors_;  // of the samples of a band, background to begin with
   std::size_t bands_done_ = 0, band_count_ = 1;
 };
 
