@@ -45,30 +45,45 @@ void BoxQueues::drop_odd_faces(const Scene& scene) {
   }
 }
 
-void WaitingBoxes::append(const BoxQueues& queues) {
+void DealtBoxes::deal(const BoxQueues& queues, const std::vector<std::uint16_t>& band_of_row, std::size_t bands) {
+  bands_ = bands;
+  begins_.assign(BoxQueues::kQueues * bands + 1, 0);
+  const auto for_each_band = [&](int q, std::size_t i, const auto& visit) {
+    const auto row = [](std::int32_t y) { return static_cast<std::size_t>(y); };
+    const simd::BoxQueue& queue = queues[q];
+    const std::size_t last = band_of_row[row(queue.y1[i])];
+    for (std::size_t band = band_of_row[row(queue.y0[i])]; band <= last; ++band) visit(q * bands + band);
+  };
+  for (int q = 0; q < BoxQueues::kQueues; ++q) {
+    for (std::size_t i = 0; i < queues[q].size; ++i) {
+      for_each_band(q, i, [&](std::size_t place) { ++begins_[place + 1]; });
+    }
+  }
+  for (std::size_t i = 1; i < begins_.size(); ++i) begins_[i] += begins_[i - 1];
+
+  room_ = begins_.back() + simd::kVertexRoom;
+  words_ = std::make_unique_for_overwrite<std::uint32_t[]>(5 * room_);
+  std::vector<std::uint32_t> next(begins_.begin(), begins_.end() - 1);
   for (int q = 0; q < BoxQueues::kQueues; ++q) {
     const simd::BoxQueue& queue = queues[q];
-    List& list = lists_[q];
-    list.faces.insert(list.faces.end(), queue.faces, queue.faces + queue.size);
-    list.x0.insert(list.x0.end(), queue.x0, queue.x0 + queue.size);
-    list.x1.insert(list.x1.end(), queue.x1, queue.x1 + queue.size);
-    list.y0.insert(list.y0.end(), queue.y0, queue.y0 + queue.size);
-    list.y1.insert(list.y1.end(), queue.y1, queue.y1 + queue.size);
+    for (std::size_t i = 0; i < queue.size; ++i) {
+      for_each_band(q, i, [&](std::size_t place) {
+        std::uint32_t* at = words_.get() + next[place]++;
+        at[0] = queue.faces[i];
+        at[room_] = static_cast<std::uint32_t>(queue.x0[i]);
+        at[2 * room_] = static_cast<std::uint32_t>(queue.x1[i]);
+        at[3 * room_] = static_cast<std::uint32_t>(queue.y0[i]);
+        at[4 * room_] = static_cast<std::uint32_t>(queue.y1[i]);
+      });
+    }
   }
 }
 
-void WaitingBoxes::take(int queue, int first_row, int last_row, simd::BoxQueue& out) const {
-  const List& list = lists_[queue];
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < list.faces.size(); ++i) {
-    out.faces[n] = list.faces[i];
-    out.x0[n] = list.x0[i];
-    out.x1[n] = list.x1[i];
-    out.y0[n] = list.y0[i];
-    out.y1[n] = list.y1[i];
-    n += list.y0[i] <= last_row && list.y1[i] >= first_row;
-  }
-  out.size = n;
+simd::BoxQueue DealtBoxes::of(int queue, std::size_t band) const {
+  const std::size_t place = static_cast<std::size_t>(queue) * bands_ + band;
+  std::uint32_t* const faces = words_.get() + begins_[place];
+  const auto numbers = [&](std::size_t row) { return reinterpret_cast<std::int32_t*>(faces + row * room_); };
+  return {faces, numbers(1), numbers(2), numbers(3), numbers(4), begins_[place + 1] - begins_[place]};
 }
 
 }  // namespace facemap

@@ -33,20 +33,20 @@ class BoxQueues {
   simd::BoxQueue queues_[kQueues];
 };
 
-/// The same, as long as needed and no longer: what waits for its band of rows.
-class WaitingBoxes {
+/// The same, dealt to the bands of rows that they reach, and as long as needed.
+class DealtBoxes {
  public:
-  void append(const BoxQueues& queues);
+  /// `band_of_row` has a band's number, below `bands`, for each row of the grid; ascending.
+  void deal(const BoxQueues& queues, const std::vector<std::uint16_t>& band_of_row, std::size_t bands);
 
-  /// Fills `out`, which has room for all, with the boxes of a queue that reach rows first_row..last_row.
-  void take(int queue, int first_row, int last_row, simd::BoxQueue& out) const;
+  /// Those of a queue that reach a band, in the order of the queue. As FaceBoxes they may be read past their end.
+  simd::BoxQueue of(int queue, std::size_t band) const;
 
  private:
-  struct List {
-    std::vector<std::uint32_t> faces;
-    std::vector<std::int32_t> x0, x1, y0, y1;
-  };
-  List lists_[BoxQueues::kQueues];
+  std::unique_ptr<std::uint32_t[]> words_;  // faces, x0, x1, y0, y1
+  std::size_t room_ = 0;                    // of each
+  std::size_t bands_ = 0;
+  std::vector<std::uint32_t> begins_;  // by queue and band
 };
 
 }  // namespace facemap
