@@ -16,16 +16,20 @@ class FaceSlots {
 
   /// Starts anew with the faces of a batch: slots[i] is the place of face_ids[i] in `planes`, where its corners stand.
   void assign(const std::uint32_t* face_ids, std::size_t count, std::int64_t* slots) {
-    planes.count = 0;
-    std::uint32_t last = kNoOwnFace;
-    std::int64_t slot = 0;
+    std::size_t used = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      if (face_ids[i] != last) {
-        last = face_ids[i];
-        slot = slot_of(last);
-      }
-      slots[i] = slot;
+      // No branch: which faces are new is hard to foresee.
+      const std::uint32_t face = face_ids[i];
+      std::uint16_t& recent = recent_[face % kRecent];
+      const bool is_known = recent < used && faces[recent] == face;
+      const std::size_t slot = is_known ? recent : used;
+      faces[slot] = face;
+      recent = static_cast<std::uint16_t>(slot);
+      slots[i] = static_cast<std::int64_t>(slot);
+      used += !is_known;
     }
+    planes.count = used;
+    place_corners();
   }
 
   simd::PlaneBatch planes;
@@ -34,28 +38,22 @@ class FaceSlots {
  private:
   static constexpr std::uint32_t kRecent = 256;
 
-  std::int64_t slot_of(std::uint32_t face) {
-    std::uint16_t& recent = recent_[face % kRecent];
-    if (recent < planes.count && faces[recent] == face) return recent;
-    recent = static_cast<std::uint16_t>(planes.count);
-    add(face);
-    return recent;
-  }
-
-  void add(std::uint32_t face) {
-    const std::size_t slot = planes.count++;
-    faces[slot] = face;
-    const Corners& corners = mesh_.triangles[face];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vector& v = mesh_.positions[corners[k]];
-      planes.corners[3 * k][slot] = v.x;
-      planes.corners[3 * k + 1][slot] = v.y;
-      planes.corners[3 * k + 2][slot] = v.z;
+  // In two passes, so that many faces are on their way from memory at a time.
+  void place_corners() {
+    for (std::size_t slot = 0; slot < planes.count; ++slot) triangles_[slot] = mesh_.triangles[faces[slot]];
+    for (std::size_t slot = 0; slot < planes.count; ++slot) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vector& v = mesh_.positions[triangles_[slot][k]];
+        planes.corners[3 * k][slot] = v.x;
+        planes.corners[3 * k + 1][slot] = v.y;
+        planes.corners[3 * k + 2][slot] = v.z;
+      }
     }
   }
 
   const Mesh& mesh_;
   std::uint16_t recent_[kRecent] = {};
+  Corners triangles_[simd::kSeenBatch];
 };
 
 }  // namespace facemap

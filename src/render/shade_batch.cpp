@@ -12,6 +12,9 @@
 namespace facemap {
 namespace {
 
+// A normal at each corner.
+bool has_all(const Corners& normals) { return std::max({normals[0], normals[1], normals[2]}) != kNoIndex; }
+
 bool is_finite(const Vector& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 }  // namespace
@@ -34,12 +37,14 @@ std::size_t ShadeBatch::take(const AskedPoints& points, std::size_t first, std::
 
 std::size_t ShadeBatch::take_smooth(const AskedPoints& points, std::size_t first, std::size_t end) {
   rays_.count = 0;
+  if (!smooth_) return end;
+  const std::vector<Corners>& normal_corners = scene_.mesh().normal_corners;
   std::uint32_t last = kNoOwnFace;
   bool last_has_normals = false;
   std::size_t i = first;
   for (; i < end && rays_.count < simd::kSeenBatch; ++i) {
     const std::uint32_t face = points.faces[i];
-    if (face != last) last_has_normals = has_normals(face);
+    if (face != last) last_has_normals = has_all(normal_corners[face]);
     last = face;
     if (!last_has_normals) continue;
     numbers_[rays_.count] = static_cast<std::uint32_t>(i);
@@ -48,12 +53,6 @@ std::size_t ShadeBatch::take_smooth(const AskedPoints& points, std::size_t first
   }
   set_up();
   return i;
-}
-
-bool ShadeBatch::has_normals(std::uint32_t face) const {
-  if (!smooth_) return false;
-  const Corners& normals = scene_.mesh().normal_corners[face];
-  return std::max({normals[0], normals[1], normals[2]}) != kNoIndex;
 }
 
 void ShadeBatch::set_up() {
@@ -83,24 +82,30 @@ void ShadeBatch::set_up_faces() {
   const float K[3] = {camera_.x, camera_.y, camera_.z};
   simd::set_up_planes(planes, K);
   simd::place_corners(planes, faces_);
-  some_smooth_ = false;
   for (std::size_t slot = 0; slot < planes.count; ++slot) {
-    const std::uint32_t face = slots_.faces[slot];
-    if (faces_.side[slot] == 0) faces_.side[slot] = side(triangle_of(scene_, face), camera_);
-    if (smooth_) set_normals(slot, face);
+    if (faces_.side[slot] == 0) faces_.side[slot] = side(triangle_of(scene_, slots_.faces[slot]), camera_);
   }
+  some_smooth_ = false;
+  if (smooth_) set_normals();
   simd::orient_faces(planes, some_smooth_, faces_);
 }
 
 // As Mesh::face gives them; a face that lacks one is not smooth, and gets none.
-void ShadeBatch::set_normals(std::size_t slot, std::uint32_t face) {
+void ShadeBatch::set_normals() {
   const Mesh& mesh = scene_.mesh();
-  const bool given = has_normals(face);
-  some_smooth_ = some_smooth_ || given;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vector normal = given ? mesh.normals[mesh.normal_corners[face][k]] : Vector(0);
-    for (int axis = 0; axis < 3; ++axis) {
-      faces_.file_normals[3 * k + static_cast<std::size_t>(axis)][slot] = normal[axis];
+  const std::size_t count = slots_.planes.count;
+  for (std::size_t slot = 0; slot < count; ++slot) {
+    normal_corners_[slot] = mesh.normal_corners[slots_.faces[slot]];
+    some_smooth_ = some_smooth_ || has_all(normal_corners_[slot]);
+  }
+  if (!some_smooth_) return;
+  for (std::size_t slot = 0; slot < count; ++slot) {
+    const bool given = has_all(normal_corners_[slot]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector normal = given ? mesh.normals[normal_corners_[slot][k]] : Vector(0);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        faces_.file_normals[3 * k + axis][slot] = normal[static_cast<int>(axis)];
+      }
     }
   }
 }
@@ -118,7 +123,7 @@ bool ShadeBatch::is_moved(std::size_t i, const Vector& position) const {
 
 void ShadeBatch::find_moved(std::vector<MovedPoint>& moved) {
   moved_count_ = 0;
-  if (!some_smooth_) return;
+  if (rays_.count == 0) return;
   find_surfaces(false);  // find_lifts needs no normals
   if (!simd::find_lifts(slots_.planes, faces_, rays_, Shader::kLeastLift, points_)) return;
   for (std::size_t i = 0; i < rays_.count; ++i) {

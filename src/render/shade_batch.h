@@ -50,9 +50,8 @@ class ShadeBatch {
   void set_up();
   void set_up_rays();
   void set_up_faces();
-  void set_normals(std::size_t slot, std::uint32_t face);
+  void set_normals();
   void find_surfaces(bool smooth);
-  bool has_normals(std::uint32_t face) const;
   bool is_moved(std::size_t i, const Vector& position) const;
 
   const Scene& scene_;
@@ -63,6 +62,7 @@ class ShadeBatch {
   FaceSlots slots_;
   simd::RayBatch rays_;
   simd::ShadedFaces faces_{};
+  Corners normal_corners_[simd::kSeenBatch];  // of the faces taken
   simd::ShadedPoints points_{};
   std::uint32_t numbers_[simd::kSeenBatch], samples_[simd::kSeenBatch], face_ids_[simd::kSeenBatch];
   std::uint32_t moved_places_[simd::kSeenBatch];  // in the batch, of the moved points
