@@ -41,7 +41,6 @@ class PlaneRaster {
   }
 
   NearestFaces run(Counters* counters) {
-    nearest_.faces.assign(grid_.count(), kNoFace);
     project();
     if (executor_.threads() == 1) {
       draw_all_at_once();
@@ -78,6 +77,7 @@ class PlaneRaster {
   void draw_all_at_once() {
     bands_.push_back({0, grid_.rows() - 1, {}, {}, {}, 0});
     BoxQueues queues(kChunk);
+    clear_faces();
     clear_depths(bands_[0]);
     for (std::size_t first = 0; first < scene_.face_count(); first += kChunk) {
       find_boxes(first, kChunk, queues);
@@ -102,19 +102,23 @@ class PlaneRaster {
     });
   }
 
-  std::vector<DealtBoxes> deal(const std::vector<std::uint16_t>& band_of_row) const {
+  // And clears the faces meanwhile.
+  std::vector<DealtBoxes> deal(const std::vector<std::uint16_t>& band_of_row) {
     const std::size_t tasks = std::size_t{4} * executor_.threads();
     const std::size_t size = std::clamp(scene_.face_count() / tasks + 1, kChunk, kLargestDeal);
     std::vector<DealtBoxes> dealt((scene_.face_count() + size - 1) / size);
     std::vector<std::unique_ptr<BoxQueues>> queues_of;  // one a worker: they are large, and fresh memory is dear
     for (int i = 0; i < executor_.threads(); ++i) queues_of.push_back(std::make_unique<BoxQueues>(size));
-    executor_.for_each(dealt.size(), [&](std::size_t i, int worker) {
+    executor_.for_each(dealt.size() + 1, [&](std::size_t i, int worker) {
+      if (i == dealt.size()) return clear_faces();
       BoxQueues& queues = *queues_of[static_cast<std::size_t>(worker)];
       find_boxes(i * size, size, queues);
       dealt[i].deal(queues, band_of_row, bands_.size());
     });
     return dealt;
   }
+
+  void clear_faces() { nearest_.faces.assign(grid_.count(), kNoFace); }
 
   void clear_depths(const Band& band) {
     const auto columns = static_cast<std::size_t>(grid_.columns());
