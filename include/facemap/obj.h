@@ -13,7 +13,7 @@
 
 namespace facemap {
 
-class ObjReader;
+struct ObjModel;
 
 /// A Wavefront OBJ file. Wang 2022, sec. 4.3: the OBJ class, which loads a model file and turns it into faces.
 ///
@@ -72,7 +72,7 @@ class OBJ {
   std::vector<Face> faces() const;
 
  private:
-  explicit OBJ(ObjReader&& reader);
+  explicit OBJ(ObjModel&& model);
 
   Mesh mesh_;
   std::vector<Material> materials_;

@@ -12,6 +12,7 @@
 namespace facemap {
 
 class Executor;
+struct SmoothingRun;
 
 /// Faces that are left out of every map, and why. Their ids stay theirs: nothing is renumbered.
 struct OddFaces {
@@ -57,6 +58,10 @@ class Scene {
   double bounding_radius() const noexcept { return bounding_radius_; }
 
  private:
+  /// The same, and adds normals to the mesh where smoothing groups ask for them.
+  Scene(Mesh mesh, std::vector<Material> materials, const std::vector<SmoothingRun>& smoothing, int threads);
+
+  void examine_faces(const Executor& executor);
   void list_kept_faces(const Executor& executor);
   void find_bounds(const Executor& executor);
 

@@ -17,10 +17,7 @@ constexpr std::size_t kLargeFile = std::size_t{1} << 25;  ///< bytes: its pages 
 
 }  // namespace
 
-OBJ::OBJ(ObjReader&& reader)
-    : mesh_(std::move(reader.mesh)), materials_(std::move(reader.materials)), report_(std::move(reader.report)) {}
-
-OBJ OBJ::load(const std::filesystem::path& path, const Limits& limits) {
+ObjModel load_obj(const std::filesystem::path& path, const OBJ::Limits& limits) {
   const FloatingPointMode mode;
   const std::string name = path.string();
   std::optional<FileMapping> file(std::in_place, path, limits.max_bytes);
@@ -28,9 +25,16 @@ OBJ OBJ::load(const std::filesystem::path& path, const Limits& limits) {
   const bool is_large = file->text().size() >= kLargeFile;
   reader.read(is_large ? [&file](std::string_view part) { file->release(part); } : ObjChunks::Release());
   file.reset();  // before finish() takes memory of its own
-  reader.finish();
-  return OBJ(std::move(reader));
+  return reader.finish();
 }
+
+OBJ::OBJ(ObjModel&& model)
+    : mesh_(std::move(model.mesh)), materials_(std::move(model.materials)), report_(std::move(model.report)) {
+  const FloatingPointMode mode;
+  if (!model.smoothing.empty()) add_smooth_normals(mesh_, model.smoothing);
+}
+
+OBJ OBJ::load(const std::filesystem::path& path, const Limits& limits) { return OBJ(load_obj(path, limits)); }
 
 OBJ OBJ::parse(std::string_view text, const std::string& name, const std::filesystem::path& directory,
                const Limits& limits) {
@@ -40,8 +44,7 @@ OBJ OBJ::parse(std::string_view text, const std::string& name, const std::filesy
   }
   ObjReader reader(text, name, directory, limits);
   reader.read();
-  reader.finish();
-  return OBJ(std::move(reader));
+  return OBJ(reader.finish());
 }
 
 std::vector<Face> OBJ::faces() const {

@@ -6,7 +6,6 @@
 #include "scene/number.h"
 #include "scene/obj_sizes.h"
 #include "scene/reserve_pages.h"
-#include "scene/smooth_normals.h"
 
 namespace facemap {
 
@@ -48,16 +47,16 @@ ObjReader::ObjReader(std::string_view text, std::string name, const std::filesys
       lines_(text),
       warnings_(name_),
       mtl_(directory, limits.max_bytes),
-      faces_(mesh, warnings_) {}
+      faces_(model_.mesh, warnings_) {}
 
 void ObjReader::read(const ObjChunks::Release& release) {
   if (read_in_chunks(release)) return;
   check_encoding(text_, name_);
   const ObjSizes sizes = estimate_sizes(text_);
-  reserve_pages(mesh.positions, sizes.vertices);
-  reserve_pages(mesh.texture_coordinates, sizes.texture_coordinates);
-  reserve_pages(mesh.normals, sizes.normals);
-  reserve_pages(mesh.triangles, std::min<std::uint64_t>(sizes.triangles, limits_.max_faces));
+  reserve_pages(model_.mesh.positions, sizes.vertices);
+  reserve_pages(model_.mesh.texture_coordinates, sizes.texture_coordinates);
+  reserve_pages(model_.mesh.normals, sizes.normals);
+  reserve_pages(model_.mesh.triangles, std::min<std::uint64_t>(sizes.triangles, limits_.max_faces));
   while (lines_.next()) {
     line_ = lines_.number();
     read_statement();
@@ -79,10 +78,10 @@ bool ObjReader::read_in_chunks(const ObjChunks::Release& release) {
 }
 
 void ObjReader::merge_chunks() {
-  chunks_.move_to(mesh, *executor_);
-  report.polygons = chunks_.polygon_count();
+  chunks_.move_to(model_.mesh, *executor_);
+  model_.report.polygons = chunks_.polygon_count();
   chunks_.visit(
-      mesh, *executor_,
+      model_.mesh, *executor_,
       [this](std::size_t first, std::size_t corner_count, std::int64_t line) { faces_.cut(first, corner_count, line); },
       [this](const char* statement, std::int64_t line, std::size_t next_triangle) {
         line_ = line;
@@ -101,7 +100,7 @@ void ObjReader::read_statement() {
   }
   if (at[0] == 'f' && ends_token(at[1])) return read_face(at + 1);
   if (at_end(at)) return;
-  next_triangle_ = mesh.triangles.size();
+  next_triangle_ = model_.mesh.triangles.size();
   read_other_statement(at);
 }
 
@@ -115,9 +114,9 @@ void ObjReader::read_other_statement(const char* at) {
   } else if (keyword == "s") {
     read_smoothing_group(at);
   } else if (keyword == "o") {
-    ++report.objects;
+    ++model_.report.objects;
   } else if (keyword == "g") {
-    ++report.groups;
+    ++model_.report.groups;
   } else {
     ignore(keyword);
   }
@@ -128,12 +127,12 @@ void ObjReader::read_vertex(const char* at) {
   at = read_float(at, position.x);
   at = read_float(at, position.y);
   at = read_float(at, position.z);
-  mesh.positions.push_back(position);
+  model_.mesh.positions.push_back(position);
   at = skip_blanks(at);
   if (!at_end(at)) {
     read_colour(at);
-  } else if (!mesh.colours.empty()) {
-    mesh.colours.push_back(kWhite);
+  } else if (!model_.mesh.colours.empty()) {
+    model_.mesh.colours.push_back(kWhite);
   }
 }
 
@@ -143,7 +142,7 @@ void ObjReader::read_colour(const char* at) {
   const int count = read_floats(at, extras, 4);
   if (count == 2) warnings_.add(line_, "v with 5 numbers, the last two ignored");
   if (count < 3) {
-    if (!mesh.colours.empty()) mesh.colours.push_back(kWhite);
+    if (!model_.mesh.colours.empty()) model_.mesh.colours.push_back(kWhite);
     return;
   }
   const float* const rgb = extras + count - 3;
@@ -151,8 +150,8 @@ void ObjReader::read_colour(const char* at) {
   const Vector clamped(std::clamp(colour.x, 0.0f, 1.0f), std::clamp(colour.y, 0.0f, 1.0f),
                        std::clamp(colour.z, 0.0f, 1.0f));
   if (clamped != colour) warnings_.add(line_, "vertex colour outside 0..1, clamped");
-  mesh.colours.resize(mesh.positions.size() - 1, kWhite);
-  mesh.colours.push_back(clamped);
+  model_.mesh.colours.resize(model_.mesh.positions.size() - 1, kWhite);
+  model_.mesh.colours.push_back(clamped);
 }
 
 void ObjReader::read_normal(const char* at) {
@@ -160,7 +159,7 @@ void ObjReader::read_normal(const char* at) {
   at = read_float(at, normal.x);
   at = read_float(at, normal.y);
   at = read_float(at, normal.z);
-  mesh.normals.push_back(normal);
+  model_.mesh.normals.push_back(normal);
   read_floats(skip_blanks(at), nullptr, 0);
 }
 
@@ -168,7 +167,7 @@ void ObjReader::read_texture_coordinates(const char* at) {
   glm::vec2 coordinates(0);
   at = skip_blanks(read_float(at, coordinates.x));
   if (!at_end(at)) at = skip_blanks(read_float(at, coordinates.y));
-  mesh.texture_coordinates.push_back(coordinates);
+  model_.mesh.texture_coordinates.push_back(coordinates);
   float depth;
   if (!at_end(at)) read_floats(at, &depth, 1);
 }
@@ -204,15 +203,15 @@ const char* ObjReader::read_odd_index(const char* const start, std::size_t count
 
 /// Reads v, v/t, v//n or v/t/n.
 inline const char* ObjReader::read_corner(const char* const start, ObjCorner& corner) {
-  const char* at = read_index(start, mesh.positions.size(), vertex_indices_, corner.vertex);
+  const char* at = read_index(start, model_.mesh.positions.size(), vertex_indices_, corner.vertex);
   if (*at == '/') {
     ++at;
     if (*at != '/' && !ends_token(*at)) {
-      at = read_index(at, mesh.texture_coordinates.size(), texture_indices_, corner.texture);
+      at = read_index(at, model_.mesh.texture_coordinates.size(), texture_indices_, corner.texture);
     }
     if (*at == '/') {
       ++at;
-      if (!ends_token(*at)) at = read_index(at, mesh.normals.size(), normal_indices_, corner.normal);
+      if (!ends_token(*at)) at = read_index(at, model_.mesh.normals.size(), normal_indices_, corner.normal);
     }
   }
   if (!ends_token(*at)) fail_number(start);
@@ -224,10 +223,10 @@ void ObjReader::read_face(const char* at) {
   is_complete_ = true;
   for (at = skip_blanks(at); !at_end(at); at = skip_blanks(at)) at = read_corner(at, corners_.emplace_back());
   if (corners_.size() < 3) fail(LoadError::Cause::TruncatedStatement, "face of fewer than 3 corners");
-  if (mesh.triangles.size() + corners_.size() - 2 > limits_.max_faces) {
+  if (model_.mesh.triangles.size() + corners_.size() - 2 > limits_.max_faces) {
     fail(LoadError::Cause::TooLarge, "more than " + std::to_string(limits_.max_faces) + " triangles");
   }
-  ++report.polygons;
+  ++model_.report.polygons;
   faces_.add(corners_, line_, is_complete_);
 }
 
@@ -287,37 +286,39 @@ void ObjReader::ignore(std::string_view keyword) {
   constexpr std::size_t kMaxKeywords = 64;
   constexpr const char* kOtherKeywords = "(others)";
   const std::string statement = printable(keyword);
-  for (OBJ::Ignored& ignored : report.ignored) {
+  for (OBJ::Ignored& ignored : model_.report.ignored) {
     if (ignored.statement == statement || ignored.statement == kOtherKeywords) {
       ++ignored.count;
       return;
     }
   }
-  const bool is_last = report.ignored.size() + 1 == kMaxKeywords;
-  report.ignored.push_back({is_last ? kOtherKeywords : statement, 1, line_});
+  const bool is_last = model_.report.ignored.size() + 1 == kMaxKeywords;
+  model_.report.ignored.push_back({is_last ? kOtherKeywords : statement, 1, line_});
 }
 
-void ObjReader::finish() {
+ObjModel ObjReader::finish() {
   if (executor_) merge_chunks();
-  report.vertices = static_cast<std::int64_t>(mesh.positions.size());
-  report.texture_coordinates = static_cast<std::int64_t>(mesh.texture_coordinates.size());
-  report.normals = static_cast<std::int64_t>(mesh.normals.size());
-  report.triangles = static_cast<std::int64_t>(mesh.triangles.size());
-  if (std::max({report.vertices, report.texture_coordinates, report.normals}) >= std::int64_t{kNoIndex}) {
+  model_.report.vertices = static_cast<std::int64_t>(model_.mesh.positions.size());
+  model_.report.texture_coordinates = static_cast<std::int64_t>(model_.mesh.texture_coordinates.size());
+  model_.report.normals = static_cast<std::int64_t>(model_.mesh.normals.size());
+  model_.report.triangles = static_cast<std::int64_t>(model_.mesh.triangles.size());
+  if (std::max({model_.report.vertices, model_.report.texture_coordinates, model_.report.normals}) >=
+      std::int64_t{kNoIndex}) {
     throw LoadError(LoadError::Cause::TooLarge, name_, 0, "more than 2^32 - 2 vertices");
   }
-  check_forward(vertex_indices_, mesh.positions.size());
-  check_forward(texture_indices_, mesh.texture_coordinates.size());
-  check_forward(normal_indices_, mesh.normals.size());
-  if (mesh.triangles.empty()) throw LoadError(LoadError::Cause::NoFaces, name_, 0, "no faces");
+  check_forward(vertex_indices_, model_.mesh.positions.size());
+  check_forward(texture_indices_, model_.mesh.texture_coordinates.size());
+  check_forward(normal_indices_, model_.mesh.normals.size());
+  if (model_.mesh.triangles.empty()) throw LoadError(LoadError::Cause::NoFaces, name_, 0, "no faces");
 
   faces_.finish();
-  report.self_intersecting_polygons = faces_.self_intersecting();
-  if (!faces_.smoothing_runs().empty()) add_smooth_normals(mesh, faces_.smoothing_runs());
-  mtl_.resolve(mesh.triangle_materials, warnings_);
-  materials = std::move(mtl_.materials());
-  warnings_.append_to(report.warnings);
-  report.warnings.insert(report.warnings.end(), mtl_.warnings().begin(), mtl_.warnings().end());
+  model_.report.self_intersecting_polygons = faces_.self_intersecting();
+  model_.smoothing = faces_.smoothing_runs();
+  mtl_.resolve(model_.mesh.triangle_materials, warnings_);
+  model_.materials = std::move(mtl_.materials());
+  warnings_.append_to(model_.report.warnings);
+  model_.report.warnings.insert(model_.report.warnings.end(), mtl_.warnings().begin(), mtl_.warnings().end());
+  return std::move(model_);
 }
 
 void ObjReader::fail(LoadError::Cause cause, const std::string& reason) const {

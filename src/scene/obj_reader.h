@@ -17,8 +17,20 @@
 #include "scene/obj_lines.h"
 #include "scene/obj_materials.h"
 #include "scene/obj_warnings.h"
+#include "scene/smooth_normals.h"
 
 namespace facemap {
+
+/// What a file holds, but for the normals that smoothing groups ask for: add_smooth_normals makes them.
+struct ObjModel {
+  Mesh mesh;
+  std::vector<Material> materials;
+  OBJ::Report report;
+  std::vector<SmoothingRun> smoothing;
+};
+
+/// As OBJ::load.
+ObjModel load_obj(const std::filesystem::path& path, const OBJ::Limits& limits);
 
 /// Reads the statements of an OBJ text into a mesh: one line after the other, or a large text without oddities in
 /// chunks by several threads, with the same outcome.
@@ -30,12 +42,8 @@ class ObjReader {
   /// with, by several threads. Throws LoadError, as does finish().
   void read(const ObjChunks::Release& release = {});
 
-  /// Checks what only the whole file can show and completes the members below.
-  void finish();
-
-  Mesh mesh;
-  std::vector<Material> materials;
-  OBJ::Report report;
+  /// Checks what only the whole file can show, and gives what was read. Call it once.
+  ObjModel finish();
 
  private:
   /// A positive index may name what comes later in the file. Those that go further ahead than any before are
@@ -71,6 +79,7 @@ class ObjReader {
   [[noreturn]] void fail(LoadError::Cause cause, const std::string& reason) const;
   [[noreturn]] void fail_number(const char* token) const;
 
+  ObjModel model_;
   std::string name_;
   OBJ::Limits limits_;
   std::string_view text_;  ///< until read() is done

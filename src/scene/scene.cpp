@@ -9,6 +9,7 @@
 
 #include "parallel/executor.h"
 #include "scene/check_mesh.h"
+#include "scene/obj_reader.h"
 #include "scene/odd_faces.h"
 #include "scene/pieces.h"
 #include "scene/vertex_bounds.h"
@@ -33,10 +34,21 @@ std::string extension_of(const std::filesystem::path& path) {
 }  // namespace
 
 Scene::Scene(Mesh mesh, std::vector<Material> materials, int threads)
+    : Scene(std::move(mesh), std::move(materials), {}, threads) {}
+
+Scene::Scene(Mesh mesh, std::vector<Material> materials, const std::vector<SmoothingRun>& smoothing, int threads)
     : mesh_(std::move(mesh)), materials_(std::move(materials)) {
   const FloatingPointMode mode;
   const Executor executor(face_count() < kSmallScene ? 1 : threads);
   check_mesh(mesh_, materials_.size(), executor);
+  // Normals are made one after the other, and faces are judged by their positions: side by side.
+  executor.for_each(2, [&](std::size_t task, int) {
+    if (task == 0 && !smoothing.empty()) add_smooth_normals(mesh_, smoothing);
+    if (task == 1) examine_faces(executor);
+  });
+}
+
+void Scene::examine_faces(const Executor& executor) {
   welded_ = weld(mesh_.positions, executor);
   odd_ = find_odd_faces(mesh_, welded_, executor, kept_);
   list_kept_faces(executor);
@@ -49,11 +61,9 @@ Scene Scene::load(const std::filesystem::path& path, int threads) {
   }
   OBJ::Limits limits;
   limits.threads = threads;
-  OBJ obj = OBJ::load(path, limits);
-  OBJ::Report report = obj.report();
-  std::vector<Material> materials = obj.materials();
-  Scene scene(std::move(obj).mesh(), std::move(materials), threads);
-  scene.report_ = std::move(report);
+  ObjModel model = load_obj(path, limits);
+  Scene scene(std::move(model.mesh), std::move(model.materials), model.smoothing, threads);
+  scene.report_ = std::move(model.report);
   return scene;
 }
 
