@@ -106,6 +106,7 @@ void print_case(const Case& question, const Measured& measured, const Options& o
   std::printf("  ms            FaceMap (   least ..     most)     Embree (   least ..     most)    speed\n");
   print_rounds("cold", measured.cold);
   print_rounds("warm", measured.warm);
+  std::printf("  light maps made once, before the warm clock: %.0f ms\n", measured.keeping_ms);
   const double ours = ns_a_query(measured.warm.ours, measured.warm);
   const double theirs = ns_a_query(measured.warm.theirs, measured.warm), limit = measured.warm.limit_ns;
   std::printf("  warm, ns a query (%zu): FaceMap %.2f, Embree %.2f, limit %.2f; FaceMap over the limit %.2f\n",

@@ -21,6 +21,13 @@ Renderer::Options renderer_options(const Options& options) {
   return made;
 }
 
+/// The lights' maps are made with the first picture.
+Renderer::Options keeping_options(const Options& options) {
+  Renderer::Options made = renderer_options(options);
+  made.light_maps = Renderer::LightMaps::Keep;
+  return made;
+}
+
 /// The statistics are of the wall clock; where the total is not, they are taken as its parts.
 Phases phases_of(const Renderer::Statistics& statistics, double total, Time time) {
   const double sum = statistics.camera_map_ms + statistics.light_maps_ms + statistics.shade_ms;
@@ -100,8 +107,9 @@ class Match {
     const EmbreeWay& way = measured_.opponents.warm;
     Answer answer(side_, side_, light_count());
     Image image;
-    Renderer renderer(question_.scene, question_.view, question_.lights, renderer_options(options_));
+    Renderer renderer(question_.scene, question_.view, question_.lights, keeping_options(options_));
     renderer.look();
+    measured_.keeping_ms = renderer.statistics().light_maps_ms;
     embree_.build(way.low_quality, way.robust);
     measured_.their_bytes = embree_.bytes();
     for (int round = 0; round < options_.repeat; ++round) {
@@ -157,7 +165,7 @@ class Match {
   void weigh_warm() {
     MemoryMeter::start();
     {
-      Renderer renderer(question_.scene, question_.view, question_.lights, renderer_options(options_));
+      Renderer renderer(question_.scene, question_.view, question_.lights, keeping_options(options_));
       renderer.look();
       MemoryMeter::forget_peak();
       renderer.set_view(question_.turned);

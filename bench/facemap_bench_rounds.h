@@ -37,6 +37,7 @@ struct Measured {
   Rounds cold, warm;
   Memory cold_memory, warm_memory;
   std::int64_t our_bytes = 0, their_bytes = 0;  ///< of the structures that are kept: maps, hierarchy
+  double keeping_ms = 0;                        ///< of making the maps that are kept, once
   std::size_t asked_again = 0, confirmed = 0;   ///< samples that differ, asked of the lists; those that agree with ours
 };
 

@@ -53,6 +53,13 @@ class Renderer {
     Transposed,  ///< points sorted into a map about the light, faces run over them: no lists are made
   };
 
+  /// Whether maps of the lights are made that are kept for further pictures of the scene; the answers are the same.
+  enum class LightMaps {
+    Auto,  ///< once earlier pictures would have saved what making them costs
+    Keep,  ///< with the first picture
+    None,
+  };
+
   struct Options {
     int width = 1024;   ///< pixels
     int height = 1024;  ///< pixels
@@ -65,6 +72,7 @@ class Renderer {
     Builder builder = Builder::Cover;
     bool want_ids = false, want_depths = false, want_lights = false;  ///< planes to fill
     Strategy strategy = Strategy::Auto;
+    LightMaps light_maps = LightMaps::Auto;
     int threads = 0;             ///< 0: as many as the process may run at once
     std::size_t map_memory = 0;  ///< bytes that maps and working memory may take, as far as possible; 0: no limit
   };

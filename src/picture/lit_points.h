@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "parallel/executor.h"
+#include "picture/kept_bounds.h"
 #include "picture/moved_points.h"
 #include "picture/sample_grid.h"
 #include "picture/seen_points.h"
@@ -22,6 +23,7 @@ struct LightWork {
   const Scene& scene;
   const std::vector<Vector>& lights;
   const ClosedParts* closed;  ///< or null
+  KeptBounds* bounds;         ///< or null
   const Executor& executor;
   std::vector<ShadowScratch>& scratch;
   std::function<void(double)> report;  ///< called when a light is done, with the share of lights done; may throw

@@ -8,6 +8,7 @@
 
 #include "math/dvector.h"
 #include "picture/gnomonic.h"
+#include "picture/point_projection.h"
 #include "picture/shadow_faces.h"
 #include "picture/shadow_points.h"
 #include "picture/shadow_rest.h"
@@ -40,9 +41,6 @@ constexpr std::size_t kPadding = 64;
 // The least error of a point's X, Y and Z, in units of 2^-24 Z, that the filter is told of: it costs nothing to speak
 // of. Points nearer to the light than the greatest allows are asked singly.
 constexpr double kLeastSlack = 0x1p-4;
-
-// Points with a lesser Z (the farthest have about 1) are asked singly whatever their error: w stays a normal float.
-constexpr double kLeastZ = 0x1p-60;
 
 // Vertices are gathered by 32-bit numbers of floats.
 constexpr std::size_t kMostVertices = std::size_t{1} << 29;
@@ -110,7 +108,7 @@ class LightPass {
       size_ += std::fabs(from_light_[k]) + points_.step * std::max(std::fabs(static_cast<double>(wanted.lower[k])),
                                                                    std::fabs(static_cast<double>(wanted.upper[k])));
     }
-    if (auto frame = frame_towards(light_, box, error_of_points())) {
+    if (auto frame = frame_towards(light_, box, PointProjection(points_, light_, size_).error)) {
       if (is_longer_along_v(scene_, *frame)) frame = turned(*frame);
       run_frame(*frame, 1, wanted.count, nearest_of(*frame, box));
     } else {
@@ -137,11 +135,6 @@ class LightPass {
     }
     return simd::measure_wanted(points_.x.data(), points_.y.data(), points_.z.data(), wanted, count);
   }
-
-  // Twice this, times the largest number in a frame's rows, bounds the error of X, Y and Z: a row is at most sqrt(3)
-  // times as long; its products with the step and the offset are rounded, then three products and three sums: 13
-  // roundings of 2^-53.
-  double error_of_points() const { return points_.error + 0x1p-50 * size_; }
 
   double nearest_of(const simd::ShadowFrame& frame, const OffsetBox& box) const {
     double nearest = 0;
@@ -173,29 +166,12 @@ class LightPass {
   }
 
   void run_frame(const simd::ShadowFrame& frame, std::uint8_t bit, std::size_t wanted, double nearest) {
-    const double error = 2 * frame.largest * error_of_points();
+    const PointProjection projection(points_, light_, size_);
     // A little more than the nearest point needs, so that rounding does not leave it out.
-    const double slack = std::clamp(error / nearest * 0x1.01p24, kLeastSlack, simd::kShadowGreatestSlack);
-    simd::PointsToProject from{points_.x.data(),
-                               points_.y.data(),
-                               points_.z.data(),
-                               points_.faces.data(),
-                               parts_.wanted.data(),
-                               bit,
-                               points_.size(),
-                               {},
-                               {},
-                               0};
-    for (int i = 0; i < 3; ++i) {
-      from.offset[i] = 0;
-      for (int k = 0; k < 3; ++k) {
-        from.matrix[i][k] = frame.rows[i][k] * points_.step;
-        from.offset[i] += frame.rows[i][k] * from_light_[k];
-      }
-    }
-    from.nearest = static_cast<float>(std::max(error * 0x1p24 / slack, kLeastZ) * (1 + 0x1p-20));
-
-    parts_.points.sort(from, wanted, scene_.face_count(), parts_.rest);
+    const double slack =
+        std::clamp(projection.error_in(frame) / nearest * 0x1.01p24, kLeastSlack, simd::kShadowGreatestSlack);
+    parts_.points.sort(projection.onto(frame, slack, parts_.wanted.data(), bit), wanted, scene_.face_count(),
+                       parts_.rest);
     if (parts_.points.count() > 0) {
       parts_.faces.run({scene_, light_, frame, slack, skip_entries_, blocks_exactly_}, parts_.points, counters_);
       clear_blocked_places();

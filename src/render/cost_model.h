@@ -13,13 +13,17 @@ struct PictureWork {
   std::size_t samples = 0;  ///< rays of the picture
   std::size_t lights = 0;
   bool has_lists = false;      ///< the lights' lists are built
+  bool has_bounds = false;     ///< bounds of the lights are made (LightBounds)
   double spent_in_vain = 0;    ///< milliseconds that earlier pictures would have saved had the lists been there
+  double lost_to_bounds = 0;   ///< the same for the bounds
   std::size_t map_memory = 0;  ///< Options::map_memory
 };
 
 /// Estimated milliseconds of one thread for all lights' shadows, by each strategy.
 struct PictureCost {
   double transposed = 0;
+  double bounded = 0;      ///< transposed, with the lights' bounds made
+  double make_bounds = 0;  ///< of all lights
   double lists = 0;        ///< with the lights' lists built
   double build_lists = 0;  ///< of all lights
 };
@@ -29,6 +33,7 @@ PictureCost estimate_cost(const PictureWork& work);
 struct StrategyChoice {
   Renderer::Strategy strategy;
   std::string reason;
+  bool keeps_bounds = false;  ///< with Strategy::Transposed
 };
 StrategyChoice choose_strategy(const Renderer::Options& options, const PictureWork& work);
 

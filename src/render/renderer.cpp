@@ -45,7 +45,7 @@ struct Renderer::Kept {
   std::mutex reporting;
   std::vector<PointLight> lists;  // empty until built
   TransposedState transposed;
-  double spent_in_vain = 0;  // see       // see PictureWork
+  double spent_in_vain = 0, lost_to_bounds = 0;  // see PictureWork
 };
 
 Renderer::Renderer(const Scene& scene, const View& view, std::vector<Light> lights, const Options& options)
@@ -99,7 +99,9 @@ Image Renderer::make(const Request& request) {
                  static_cast<std::size_t>(options.samples) * static_cast<std::size_t>(options.samples);
   work.lights = lights_.size();
   work.has_lists = kept_->lists.size() == lights_.size();
+  work.has_bounds = kept_->transposed.bounds.are_made();
   work.spent_in_vain = kept_->spent_in_vain;
+  work.lost_to_bounds = kept_->lost_to_bounds;
   work.map_memory = options.map_memory;
   const StrategyChoice choice = choose_strategy(options, work);
 
@@ -114,11 +116,13 @@ Image Renderer::make(const Request& request) {
   if (options.builder == Builder::Fill || options.sampling == Sampling::Edges) return paint_by_lists(request);
 
   WholePicture picture(*scene_, view_, lights_, options, kept_->executor, kept_->transposed,
-                       by_lists ? &kept_->lists : nullptr, statistics_, request.report);
+                       by_lists ? &kept_->lists : nullptr, choice.keeps_bounds, statistics_, request.report);
   Image image = request.wants_colours ? picture.paint() : picture.look();
   if (!by_lists) {
     const PictureCost cost = estimate_cost(work);
     kept_->spent_in_vain += std::max(0.0, cost.transposed - cost.lists);
+    kept_->lost_to_bounds += cost.transposed - cost.bounded;
+    statistics_.map_bytes += kept_->transposed.bounds.memory_bytes();
     for (const ShadowScratch& scratch : kept_->transposed.scratch) statistics_.map_bytes += scratch.memory_bytes();
   }
   return image;

@@ -123,7 +123,8 @@ struct WholePicture::Seen {
 
 WholePicture::WholePicture(const Scene& scene, const View& view, const std::vector<Light>& lights,
                            const Renderer::Options& options, const Executor& executor, TransposedState& state,
-                           const std::vector<PointLight>* lists, Renderer::Statistics& statistics, Report report)
+                           const std::vector<PointLight>* lists, bool keeps_bounds, Renderer::Statistics& statistics,
+                           Report report)
     : scene_(scene),
       view_(view),
       lights_(lights),
@@ -131,6 +132,7 @@ WholePicture::WholePicture(const Scene& scene, const View& view, const std::vect
       executor_(executor),
       state_(state),
       lists_(lists),
+      keeps_bounds_(keeps_bounds),
       statistics_(statistics),
       report_(std::move(report)) {
   state_.scratch.resize(static_cast<std::size_t>(executor.threads()));
@@ -194,6 +196,10 @@ void WholePicture::prepare_lights(const SampleGrid& grid, const MovedPoints& mov
   std::merge(seen.loose.begin(), seen.loose.end(), hidden.begin(), hidden.end(), loose.begin());
   loose.erase(std::unique(loose.begin(), loose.end()), loose.end());
   seen.loose = std::move(loose);
+  if (keeps_bounds_ && !state_.bounds.are_made() && !lights_.empty()) {
+    state_.bounds.make(scene_, positions_of(lights_), state_.closed.get(),
+                       state_.closed->outside(scene_, grid.frame.position()), executor_);
+  }
 }
 
 void WholePicture::ask_lights(const SampleGrid& grid, SeenPoints& seen) {
@@ -213,8 +219,10 @@ void WholePicture::ask_lights(const SampleGrid& grid, SeenPoints& seen) {
     clear_blocked_by_lists(*lists_, scene_, grid, executor_, moved, seen, statistics_.light_tests);
   } else {
     const std::vector<Vector> lights = positions_of(lights_);
-    const LightWork work{scene_,    lights,         state_.closed.get(),
-                         executor_, state_.scratch, [this](double share) { report(0.3 + 0.5 * share, "shade"); }};
+    const LightWork work{
+        scene_, lights, state_.closed.get(), &state_.bounds, executor_, state_.scratch, [this](double share) {
+          report(0.3 + 0.5 * share, "shade");
+        }};
     clear_blocked(work, grid, moved, seen, statistics_.light_tests);
   }
   put_back_faces(moved, seen.points);

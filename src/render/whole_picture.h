@@ -17,6 +17,7 @@ namespace facemap {
 struct TransposedState {
   std::unique_ptr<ClosedParts> closed;  ///< made when first needed
   std::vector<ShadowScratch> scratch;   ///< one a worker
+  KeptBounds bounds;                    ///< of the lights, once they are made
 };
 
 /// All samples of a picture at once, or of bands of its rows: the camera's faces by the transposed way, the lights' by
@@ -26,10 +27,11 @@ class WholePicture {
   /// Called now and then with the fraction done and the phase's name; it may throw.
   using Report = std::function<void(double, const char*)>;
 
-  /// `lists`: one map a light to ask, or null to take the transposed way for shadows too.
+  /// `lists`: one map a light to ask, or null to take the transposed way for shadows too; `keeps_bounds`: then bounds
+  /// of the lights are made, if they are not.
   WholePicture(const Scene& scene, const View& view, const std::vector<Light>& lights, const Renderer::Options& options,
                const Executor& executor, TransposedState& state, const std::vector<PointLight>* lists,
-               Renderer::Statistics& statistics, Report report);
+               bool keeps_bounds, Renderer::Statistics& statistics, Report report);
 
   /// As Renderer::render.
   Image paint();
@@ -54,6 +56,7 @@ class WholePicture {
   const Executor& executor_;
   TransposedState& state_;
   const std::vector<PointLight>* lists_;
+  bool keeps_bounds_;
   Renderer::Statistics& statistics_;
   Report report_;
   bool paints_ = false;

@@ -90,15 +90,26 @@ class Session {
     options.samples = random_.chance(0.2) ? random_.between(2, 3) : 1;
     options.threads = random_.between(1, 3);
     if (random_.chance(0.3)) options.map_memory = 1;  // bands of few rows
+    if (random_.chance(0.5)) options.light_maps = Renderer::LightMaps::Keep;
     options.strategy = random_.chance(0.8) ? Renderer::Strategy::Transposed : Renderer::Strategy::Lists;
     const std::vector<simd::Target> targets = simd::supported_targets();
     simd::set_active_target(targets[static_cast<std::size_t>(random_.below(static_cast<int>(targets.size())))]);
     try {
       Renderer renderer(scene, view, lights, options);
+      if (random_.chance(0.2)) look_elsewhere(test, renderer);  // what is kept is made for another view
+      renderer.set_view(view);
       compare(test, scene, view, lights, options, renderer.look());
       ++tally_.pictures;
     } catch (const Error&) {  // no view looks at its own position, or along its up direction
       EXPECT_ANY_THROW(SpaceVector::looking_at(view.position, view.look_at, view.up));
+    }
+  }
+
+  void look_elsewhere(const TestScene& test, Renderer& renderer) {
+    try {
+      renderer.set_view(make_view(test));
+      renderer.look();
+    } catch (const Error&) {  // as in ask_picture
     }
   }
 

@@ -1,0 +1,84 @@
+#include "picture/decide_points.h"
+
+#include <mutex>
+
+#include "math/dvector.h"
+#include "picture/point_projection.h"
+
+namespace facemap {
+namespace {
+
+// What the kernel reaches past the end.
+constexpr std::size_t kPadding = 64;
+
+template <class Vector>
+std::size_t bytes_of(const Vector& v) {
+  return v.capacity() * sizeof(v[0]);
+}
+
+// One byte a point.
+const std::uint8_t* asked_bytes(const MaskBit& mask, std::size_t count, std::vector<std::uint8_t>& room) {
+  const std::uint8_t* bytes = mask.asked + mask.bit / 8;
+  if (mask.stride == 1) return bytes;
+  room.resize(count);
+  for (std::size_t i = 0; i < count; ++i) room[i] = bytes[i * mask.stride];
+  return room.data();
+}
+
+void clear_dark(const std::uint8_t* dark, std::size_t count, const MaskBit& mask) {
+  std::uint8_t* lit = mask.lit + mask.bit / 8;
+  const int shift = mask.bit % 8;
+  const std::size_t stride = mask.stride;
+  const auto cleared = [=](std::uint8_t byte, std::uint8_t is_dark) {
+    return static_cast<std::uint8_t>(byte & ~(is_dark << shift));
+  };
+  if (stride == 1) {
+    for (std::size_t i = 0; i < count; ++i) lit[i] = cleared(lit[i], dark[i]);
+  } else {
+    for (std::size_t i = 0; i < count; ++i) lit[i * stride] = cleared(lit[i * stride], dark[i]);
+  }
+}
+
+void take(const AskedPoints& points, const std::uint32_t* numbers, std::size_t count, AskedPoints& some) {
+  some.origin = points.origin;
+  some.step = points.step;
+  some.error = points.error;
+  for (auto* coordinates : {&some.x, &some.y, &some.z}) coordinates->resize(count);
+  some.faces.resize(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t i = numbers[k];
+    some.x[k] = points.x[i];
+    some.y[k] = points.y[i];
+    some.z[k] = points.z[i];
+    some.faces[k] = points.faces[i];
+  }
+}
+
+}  // namespace
+
+std::size_t DecidedPoints::memory_bytes() const noexcept {
+  return bytes_of(asked) + bytes_of(dark) + bytes_of(numbers) + bytes_of(open.x) + bytes_of(open.y) + bytes_of(open.z) +
+         bytes_of(open.faces);
+}
+
+std::size_t decide_points(const LightBounds& bounds, const Vector& light, const AskedPoints& points,
+                          const MaskBit& mask, DecidedPoints& work, Counters& counters) {
+  const std::size_t count = points.size();
+  work.dark.resize(count + kPadding);
+  work.numbers.resize(count + kPadding);
+  // No offset is longer: coordinates have 32 bits.
+  const DVector from_light = points.origin - DVector(light);
+  const double size = 3 * points.step * 0x1p31 + 3 * length(from_light);
+  const auto from = PointProjection(points, light, size)
+                        .onto(bounds.frame(), simd::kShadowGreatestSlack, asked_bytes(mask, count, work.asked),
+                              static_cast<std::uint8_t>(1u << (mask.bit % 8)));
+  const auto counts = simd::decide_points(from, bounds.texels(), work.dark.data(), work.numbers.data());
+  counters.by_float += counts.asked - counts.open;
+  take(points, work.numbers.data(), counts.open, work.open);
+  const std::unique_lock lock =
+      mask.writing != nullptr ? std::unique_lock(*mask.writing) : std::unique_lock<std::mutex>();
+  clear_dark(work.dark.data(), count, mask);
+  return counts.open;
+}
+
+}  // namespace facemap

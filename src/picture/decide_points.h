@@ -1,0 +1,31 @@
+#pragma once
+
+#include <facemap/counters.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "picture/asked_points.h"
+#include "picture/light_bounds.h"
+#include "picture/shadows.h"
+#include "picture/unset_vector.h"
+
+namespace facemap {
+
+/// Working memory of decide_points.
+struct DecidedPoints {
+  std::vector<std::uint8_t> asked;     ///< of a mask of several bytes a point, the one byte
+  UnsetVector<std::uint8_t> dark;      ///< one a point: 1 where it is
+  UnsetVector<std::uint32_t> numbers;  ///< room for those that are open
+  AskedPoints open;
+
+  std::size_t memory_bytes() const noexcept;
+};
+
+/// For points whose bit is set in mask.asked: clears it in mask.lit where the light's bounds say that the point is
+/// dark. Leaves in `work` the points about which they say nothing: open, the first `count` of numbers, which it
+/// returns.
+std::size_t decide_points(const LightBounds& bounds, const Vector& light, const AskedPoints& points,
+                          const MaskBit& mask, DecidedPoints& work, Counters& counters);
+
+}  // namespace facemap

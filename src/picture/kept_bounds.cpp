@@ -1,0 +1,32 @@
+#include "picture/kept_bounds.h"
+
+#include "scene/face_neighbours.h"
+
+namespace facemap {
+
+void KeptBounds::make(const Scene& scene, const std::vector<Vector>& lights, const ClosedParts* closed,
+                      const std::vector<std::uint8_t>& outside_camera, const Executor& executor) {
+  outside_camera_ = outside_camera;
+  work_.resize(static_cast<std::size_t>(executor.threads()));
+  std::vector<std::optional<LightBounds>> made(lights.size());
+  const std::vector<FaceNeighbours> neighbours = find_face_neighbours(scene);
+  executor.for_each(lights.size(), [&](std::size_t l, int) {
+    std::vector<std::uint8_t> skippable;
+    if (closed != nullptr) skippable = closed->skippable_entries(scene, outside_camera, lights[l]);
+    made[l] = LightBounds::find(scene, lights[l], skippable.empty() ? nullptr : skippable.data(), neighbours);
+  });
+  of_lights_ = std::move(made);
+}
+
+const LightBounds* KeptBounds::of(std::size_t light, const std::vector<std::uint8_t>& outside_camera) const {
+  return are_made() && of_lights_[light] && outside_camera == outside_camera_ ? &*of_lights_[light] : nullptr;
+}
+
+std::size_t KeptBounds::memory_bytes() const noexcept {
+  std::size_t bytes = 0;
+  for (const auto& bounds : of_lights_) bytes += bounds ? bounds->memory_bytes() : 0;
+  for (const DecidedPoints& work : work_) bytes += work.memory_bytes();
+  return bytes;
+}
+
+}  // namespace facemap

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <facemap/scene.h>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "parallel/executor.h"
+#include "picture/decide_points.h"
+#include "picture/light_bounds.h"
+#include "scene/closed_parts.h"
+
+namespace facemap {
+
+/// The bounds of all lights of a scene, kept from picture to picture.
+class KeptBounds {
+ public:
+  /// `closed`, or null: what the camera is `outside` of (ClosedParts::outside) decides which faces may be left out, so
+  /// the bounds are good for cameras of the same answer only. Lights are tasks of the executor.
+  void make(const Scene& scene, const std::vector<Vector>& lights, const ClosedParts* closed,
+            const std::vector<std::uint8_t>& outside_camera, const Executor& executor);
+
+  bool are_made() const noexcept { return !of_lights_.empty(); }
+
+  /// Those of a light, or null where there are none for such a camera.
+  const LightBounds* of(std::size_t light, const std::vector<std::uint8_t>& outside_camera) const;
+
+  /// One a worker of the executor.
+  DecidedPoints& work(int worker) { return work_[static_cast<std::size_t>(worker)]; }
+
+  std::size_t memory_bytes() const noexcept;
+
+ private:
+  std::vector<std::uint8_t> outside_camera_;
+  std::vector<std::optional<LightBounds>> of_lights_;
+  std::vector<DecidedPoints> work_;
+};
+
+}  // namespace facemap

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <facemap/scene.h>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "scene/face_neighbours.h"
+#include "simd/bounded_points.h"
+#include "simd/shadow_frame.h"
+
+namespace facemap {
+
+/// A light's map that is kept: which distances are surely lit or surely dark in each direction, whatever the picture.
+/// Most points of a picture are decided by it at once; the others are held against faces.
+class LightBounds {
+ public:
+  /// `skip_entries`, one byte a face, or null: as for clear_blocked; then `lit` holds for points that may leave those
+  /// faces out. Nothing if the light does not have all of the scene well in front of it.
+  ///
+  /// Time: about 150 ns a face. Memory: 4 bytes a texel, at most 1 MB, and 9 bytes a texel and 16 a face while it is
+  /// made.
+  static std::optional<LightBounds> find(const Scene& scene, const Vector& light, const std::uint8_t* skip_entries,
+                                         const std::vector<FaceNeighbours>& neighbours);
+
+  const simd::ShadowFrame& frame() const noexcept { return frame_; }
+  simd::TexelBounds texels() const noexcept { return {texels_.data(), size_, w_least_, w_scale_}; }
+  std::size_t memory_bytes() const noexcept { return sizeof(*this) + texels_.capacity() * sizeof(texels_[0]); }
+
+ private:
+  LightBounds() = default;
+  void encode(const std::vector<float>& lit, const std::vector<float>& dark, float least, float greatest);
+
+  simd::ShadowFrame frame_{};
+  int size_ = 0;
+  float w_least_ = 0, w_scale_ = 0;
+  std::vector<std::uint32_t> texels_;
+};
+
+}  // namespace facemap

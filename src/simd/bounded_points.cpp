@@ -1,0 +1,81 @@
+#include "simd/bounded_points.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "simd/bounded_points.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "simd/dispatch.h"
+#include "simd/shadow_project-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace facemap::simd::HWY_NAMESPACE {
+
+using DBytes = hn::Rebind<std::uint8_t, DU>;
+
+// Decides points i.. of a run that begins at `first`; `wanted` are those of the run.
+HWY_INLINE void decide_lanes(const PointsToProject& from, const TexelBounds& bounds, const Run& run,
+                             const std::uint8_t* wanted, std::size_t first, std::size_t i, std::uint8_t* dark,
+                             std::uint32_t* open, PointCounts& counts) {
+  const DF d;
+  const DU du;
+  const DI di;
+  const DBytes db;
+  const auto is_wanted = hn::TestBit(hn::PromoteTo(du, hn::LoadU(db, wanted + i)), hn::Set(du, from.bit));
+  if (hn::AllFalse(du, is_wanted)) return;
+  counts.asked += hn::CountTrue(du, is_wanted);
+
+  const auto one = hn::Set(d, 1.0f), Z = hn::Load(d, run.Z + i);
+  const auto w = hn::Div(one, Z);
+  const auto u = hn::Mul(hn::Load(d, run.X + i), w), v = hn::Mul(hn::Load(d, run.Y + i), w);
+  const auto is_inside = hn::And(hn::Le(hn::Max(hn::Abs(u), hn::Abs(v)), one), hn::Ge(Z, hn::Set(d, from.nearest)));
+  const auto is_on = hn::And(is_wanted, hn::RebindMask(du, is_inside));
+  const auto place = hn::Add(hn::Mul(texel_of(v, bounds.size), hn::Set(di, bounds.size)), texel_of(u, bounds.size));
+  const auto texel = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(bounds.texels),
+                                     hn::IfThenElseZero(hn::RebindMask(di, is_on), place));
+  const auto upper = hn::ConvertTo(d, hn::BitCast(di, hn::ShiftRight<16>(hn::BitCast(du, texel))));
+  const auto lower = hn::ConvertTo(d, hn::And(texel, hn::Set(di, 0xffff)));
+  const auto steps = hn::Mul(hn::Sub(w, hn::Set(d, bounds.w_least)), hn::Set(d, bounds.w_scale));
+  const auto number = hn::Max(hn::Min(steps, hn::Set(d, TexelBounds::kSteps)), hn::Zero(d));
+  const auto is_dark = hn::And(is_on, hn::RebindMask(du, hn::Lt(number, lower)));
+  const auto is_lit = hn::And(is_on, hn::RebindMask(du, hn::Or(hn::Gt(number, upper), hn::Eq(upper, hn::Zero(d)))));
+  const auto bytes = hn::IfThenElseZero(is_dark, hn::Set(du, 1));
+  hn::StoreU(hn::DemoteTo(db, hn::BitCast(di, bytes)), db, dark + first + i);
+  const auto numbers = hn::Add(hn::Iota(du, 0), hn::Set(du, static_cast<std::uint32_t>(first + i)));
+  counts.open += hn::CompressStore(numbers, hn::AndNot(hn::Or(is_dark, is_lit), is_wanted), du, open + counts.open);
+}
+
+PointCounts decide_points(const PointsToProject& from, const TexelBounds& bounds, std::uint8_t* dark,
+                          std::uint32_t* open) {
+  PointCounts counts{};
+  Run run;
+  for (std::size_t first = 0; first < from.count; first += kRun) {
+    std::memset(dark + first, 0, kRun);
+    std::uint8_t last[kRun] = {};
+    const std::uint8_t* wanted = from.wanted + first;
+    if (from.count - first < kRun) {
+      std::copy_n(wanted, from.count - first, last);
+      wanted = last;
+    }
+    if (!is_any_wanted(wanted, from.bit)) continue;
+    transform(from, first, run);
+    for (std::size_t i = 0; i < kRun; i += hn::Lanes(DF())) {
+      decide_lanes(from, bounds, run, wanted, first, i, dark, open, counts);
+    }
+  }
+  return counts;
+}
+
+}  // namespace facemap::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace facemap::simd {
+
+PointCounts decide_points(const PointsToProject& from, const TexelBounds& bounds, std::uint8_t* dark,
+                          std::uint32_t* open) {
+  return FACEMAP_DISPATCH(decide_points)(from, bounds, dark, open);
+}
+
+}  // namespace facemap::simd
+#endif

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "simd/shadow_points.h"
+
+namespace facemap::simd {
+
+/// Bounds of w for each texel of a square raster about a light, as numbers: (w - w_least) w_scale, within 0 and kSteps.
+/// The upper half of a texel is such that a point of a greater number is lit for certain, and every point if it is 0:
+/// nothing stands there. The lower half is such that a point of a lesser number is dark.
+struct TexelBounds {
+  static constexpr float kSteps = 65535;
+
+  const std::uint32_t* texels;
+  int size;  ///< texels a side
+  float w_least, w_scale;
+};
+
+/// Of the points that `from` asks for: sets dark[i] to 1 where a point is dark, 0 for all others, and puts the numbers
+/// of those that the bounds leave open into `open`, ascending; points off the raster or nearer than from.nearest among
+/// them. from.wanted need not be readable past its end; there is room for 16 more in `open`, for 64 more in `dark`.
+struct PointCounts {
+  std::size_t asked, open;
+};
+PointCounts decide_points(const PointsToProject& from, const TexelBounds& bounds, std::uint8_t* dark,
+                          std::uint32_t* open);
+
+}  // namespace facemap::simd

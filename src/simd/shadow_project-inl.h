@@ -1,0 +1,89 @@
+// How kernels put points on a light's raster. Included once a target, as foreach_target.h has it.
+#include <algorithm>
+#include <cstring>
+
+#include "simd/shadow_points.h"
+
+#if defined(FACEMAP_SHADOW_PROJECT) == defined(HWY_TARGET_TOGGLE)
+#ifdef FACEMAP_SHADOW_PROJECT
+#undef FACEMAP_SHADOW_PROJECT
+#else
+#define FACEMAP_SHADOW_PROJECT
+#endif
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace facemap::simd::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using DF = hn::CappedTag<float, 16>;
+using DU = hn::RebindToUnsigned<DF>;
+using DI = hn::RebindToSigned<DF>;
+using DD = hn::CappedTag<double, 8>;
+using DHalfF = hn::Rebind<float, DD>;
+using DHalfI = hn::Rebind<std::int32_t, DD>;
+
+// Points are transformed this many at a time, in doubles, before they are divided.
+constexpr std::size_t kRun = 64;
+
+struct Run {
+  alignas(64) float X[kRun], Y[kRun], Z[kRun];
+  alignas(64) std::uint32_t own_face[kRun];
+};
+
+// One coordinate of a row: ((m0 x + m1 y) + m2 z) + offset.
+HWY_INLINE hn::Vec<DD> row_of(const double* row, double offset, hn::Vec<DD> x, hn::Vec<DD> y, hn::Vec<DD> z) {
+  const DD d;
+  const auto xy = hn::Add(hn::Mul(hn::Set(d, row[0]), x), hn::Mul(hn::Set(d, row[1]), y));
+  return hn::Add(hn::Add(xy, hn::Mul(hn::Set(d, row[2]), z)), hn::Set(d, offset));
+}
+
+HWY_INLINE void transform(const PointsToProject& from, std::size_t first, Run& run) {
+  const std::size_t count = std::min(kRun, from.count - first);
+  const std::int32_t *px = from.x + first, *py = from.y + first, *pz = from.z + first;
+  alignas(64) std::int32_t last_run[3][kRun];
+  std::copy_n(from.own_faces + first, count, run.own_face);
+  if (count < kRun) {
+    std::memset(last_run, 0, sizeof(last_run));
+    px = std::copy_n(px, count, last_run[0]) - count;
+    py = std::copy_n(py, count, last_run[1]) - count;
+    pz = std::copy_n(pz, count, last_run[2]) - count;
+  }
+  const DD d;
+  const DHalfF half;
+  const DHalfI half_int;
+  for (std::size_t i = 0; i < kRun; i += hn::Lanes(d)) {
+    const auto x = hn::PromoteTo(d, hn::LoadU(half_int, px + i));
+    const auto y = hn::PromoteTo(d, hn::LoadU(half_int, py + i));
+    const auto z = hn::PromoteTo(d, hn::LoadU(half_int, pz + i));
+    hn::Store(hn::DemoteTo(half, row_of(from.matrix[0], from.offset[0], x, y, z)), half, run.X + i);
+    hn::Store(hn::DemoteTo(half, row_of(from.matrix[1], from.offset[1], x, y, z)), half, run.Y + i);
+    hn::Store(hn::DemoteTo(half, row_of(from.matrix[2], from.offset[2], x, y, z)), half, run.Z + i);
+  }
+}
+
+// Column or row of a coordinate: monotone in it, whatever the rounding. The spans of faces use the same steps.
+HWY_INLINE hn::Vec<DI> texel_of(hn::Vec<DF> coordinate, int count) {
+  const DF d;
+  const auto half = hn::Set(d, 0.5f * static_cast<float>(count));
+  const auto place = hn::Add(hn::Mul(coordinate, half), half);
+  const auto last = hn::Set(d, static_cast<float>(count - 1));
+  return hn::ConvertTo(DI(), hn::Min(hn::Max(place, hn::Zero(d)), last));
+}
+
+// Of kRun points.
+HWY_INLINE bool is_any_wanted(const std::uint8_t* wanted, std::uint8_t bit) {
+  std::uint64_t words[kRun / 8], all = 0;
+  std::memcpy(words, wanted, sizeof(words));
+  for (const std::uint64_t word : words) all |= word;
+  return (all & bit * 0x0101010101010101u) != 0;
+}
+
+}  // namespace
+}  // namespace facemap::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,216 @@
+#include "picture/light_bounds.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "map/face_planes.h"
+#include "math/dvector.h"
+#include "math/exact_sign.h"
+#include "picture/decide_points.h"
+#include "picture/face_texels.h"
+#include "simd/target.h"
+#include "support/random.h"
+#include "support/scenes.h"
+
+namespace facemap {
+namespace {
+
+using test_scenes::Kind;
+using test_scenes::TestScene;
+
+bool is_blocked(const Scene& scene, const Vector& light, const Vector& point) {
+  const auto& faces = scene.kept_faces();
+  return std::any_of(faces.begin(), faces.end(), [&](std::uint32_t face) {
+    const Triangle triangle = triangle_of(scene, face);
+    return blocks(triangle, side(triangle, light), light, GivenPoint{point});
+  });
+}
+
+// Anywhere about the scene, on a face up to rounding, or near one.
+Vector make_point(const TestScene& test, Random& random) {
+  const Mesh& mesh = test.mesh;
+  DVector point = DVector(test.centre) + 1.3 * test.radius * DVector(random.direction()) * random.between(0.0, 1.0);
+  if (random.chance(0.7)) {
+    const auto face = static_cast<std::size_t>(random.below(static_cast<int>(mesh.face_count())));
+    const double s = random.between(0.0, 1.0), t = random.between(0.0, 1.0 - s);
+    const DVector a(mesh.vertex(face, 0)), b(mesh.vertex(face, 1)), c(mesh.vertex(face, 2));
+    point = a + s * (b - a) + t * (c - a);
+    if (random.chance(0.5)) point += test.radius * std::exp2(random.between(-20.0, -3.0)) * DVector(random.direction());
+  }
+  return Vector(point);
+}
+
+AskedPoints asked(const TestScene& test, const std::vector<Vector>& points) {
+  AskedPoints result;
+  result.origin = DVector(test.centre);
+  result.step = test.radius * 0x1p-26;
+  result.error = result.step;
+  for (const Vector& p : points) {
+    const DVector q = (DVector(p) - result.origin) / result.step;
+    result.x.push_back(static_cast<std::int32_t>(std::nearbyint(q.x)));
+    result.y.push_back(static_cast<std::int32_t>(std::nearbyint(q.y)));
+    result.z.push_back(static_cast<std::int32_t>(std::nearbyint(q.z)));
+    result.faces.push_back(kNoOwnFace);
+  }
+  return result;
+}
+
+struct Decisions {
+  std::vector<std::uint8_t> lit;  // cleared where dark
+  std::vector<std::uint32_t> open;
+};
+
+Decisions decide(const LightBounds& bounds, const Vector& light, const AskedPoints& points, int bit,
+                 std::size_t stride) {
+  std::vector<std::uint8_t> masks(points.size() * stride, 0xff);
+  const std::vector<std::uint8_t> before = masks;
+  DecidedPoints work;
+  Counters counters;
+  const std::size_t count =
+      decide_points(bounds, light, points, {before.data(), masks.data(), stride, bit}, work, counters);
+  EXPECT_EQ(counters.by_float, points.size() - count);
+  Decisions decisions;
+  decisions.open.assign(work.numbers.begin(), work.numbers.begin() + static_cast<std::ptrdiff_t>(count));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto at = i * stride + static_cast<std::size_t>(bit) / 8;
+    EXPECT_EQ(masks[at] | 1 << bit % 8, 0xff) << "other lights' bits stay";
+    decisions.lit.push_back(masks[at] >> (bit % 8) & 1);
+  }
+  return decisions;
+}
+
+// What they decide is so.
+TEST(LightBounds, EqualTheExactAnswer) {
+  constexpr std::uint64_t kSeed = 0x5eed0075;
+  std::printf("seed 0x%llx\n", (unsigned long long)kSeed);
+  Random random(kSeed);
+  std::size_t all = 0, lit = 0, dark = 0;
+  for (int round = 0; round < 120; ++round) {
+    const auto kind = static_cast<Kind>(random.below(test_scenes::kKindCount - 1));  // not Wild
+    const TestScene test = test_scenes::make_scene(kind, random.between(4, 400), random);
+    const Scene scene(test.mesh);
+    const Vector light(DVector(test.centre) +
+                       test.radius * std::exp2(random.between(1.5, 6.0)) * normalized(DVector(random.direction())));
+    const auto bounds = LightBounds::find(scene, light, nullptr, find_face_neighbours(scene));
+    if (!bounds) continue;
+    std::vector<Vector> points;
+    for (int i = 0; i < 300; ++i) points.push_back(make_point(test, random));
+    const AskedPoints questions = asked(test, points);
+    const Decisions decisions = decide(*bounds, light, questions, round % 11, round % 11 < 8 && round % 2 == 0 ? 1 : 2);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      ++all;
+      if (std::binary_search(decisions.open.begin(), decisions.open.end(), i)) {
+        EXPECT_EQ(decisions.lit[i], 1);
+        continue;
+      }
+      (decisions.lit[i] != 0 ? lit : dark) += 1;
+      ASSERT_EQ(decisions.lit[i] == 0, is_blocked(scene, light, points[i]))
+          << test.name << " round " << round << " point " << points[i].x << ' ' << points[i].y << ' ' << points[i].z;
+    }
+  }
+  std::printf("%zu points, %zu lit, %zu dark for certain\n", all, lit, dark);
+  EXPECT_GT(all, 20000u);
+  EXPECT_GT(lit, all / 10);
+  EXPECT_GT(dark, all / 10);
+}
+
+// The side of a large sheet that a light does not see is dark but for its rim, in spite of a second sheet behind all.
+TEST(LightBounds, KnowThatASheetCastsAShadow) {
+  Mesh mesh;
+  constexpr int kSide = 8;
+  for (const float height : {1.0f, -5.0f}) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (int i = 0; i <= kSide; ++i) {
+      for (int j = 0; j <= kSide; ++j) mesh.positions.push_back(Vector(i - kSide / 2, height, j - kSide / 2));
+    }
+    for (std::uint32_t i = 0; i < kSide; ++i) {
+      for (std::uint32_t j = 0; j < kSide; ++j) {
+        const std::uint32_t a = first + i * (kSide + 1) + j, b = a + kSide + 1;
+        mesh.triangles.push_back({a, b, b + 1});
+        mesh.triangles.push_back({a, b + 1, a + 1});
+      }
+    }
+  }
+  const Scene scene(mesh);
+  const Vector light(0, 30, 0);
+  const auto bounds = LightBounds::find(scene, light, nullptr, find_face_neighbours(scene));
+  ASSERT_TRUE(bounds);
+  TestScene test;
+  test.radius = 8;
+  const std::vector<Vector> points = {{0.3f, 0, 0.2f}, {-2.1f, -4, 3.3f}, {0, 2, 0}, {3.5f, -4.9f, 0}, {0, -6, 0}};
+  const Decisions decisions = decide(*bounds, light, asked(test, points), 0, 1);
+  EXPECT_EQ(decisions.lit, (std::vector<std::uint8_t>{0, 0, 1, 0, 0}));
+  EXPECT_TRUE(decisions.open.empty()) << "point " << decisions.open[0];
+}
+
+TEST(LightBounds, AreTheSameOnEveryTarget) {
+  Random random(0x5eed0076);
+  const TestScene test = test_scenes::make_scene(Kind::Patch, 300, random);
+  const Scene scene(test.mesh);
+  const Vector light(DVector(test.centre) + DVector(1, 3, 2) * test.radius);
+  std::vector<Vector> points;
+  for (int i = 0; i < 3001; ++i) points.push_back(make_point(test, random));
+  std::vector<Decisions> all;
+  for (const simd::Target target : simd::supported_targets()) {
+    simd::set_active_target(target);
+    const auto bounds = LightBounds::find(scene, light, nullptr, find_face_neighbours(scene));
+    ASSERT_TRUE(bounds);
+    all.push_back(decide(*bounds, light, asked(test, points), 3, 1));
+  }
+  simd::set_active_target(simd::supported_targets().back());
+  EXPECT_FALSE(all[0].open.empty());
+  for (const Decisions& decisions : all) {
+    EXPECT_EQ(decisions.open, all[0].open);
+    EXPECT_EQ(decisions.lit, all[0].lit);
+  }
+}
+
+TEST(LightBounds, AreNotMadeForALightAmongTheFaces) {
+  Random random(0x5eed0077);
+  const TestScene test = test_scenes::make_scene(Kind::Shell, 40, random);
+  const Scene scene(test.mesh);
+  EXPECT_FALSE(LightBounds::find(scene, test.centre, nullptr, find_face_neighbours(scene)));
+}
+
+// A face's texels hold all of it, and its w there is within the bounds.
+TEST(FaceTexels, HoldTheFace) {
+  constexpr std::uint64_t kSeed = 0x5eed0078;
+  std::printf("seed 0x%llx\n", (unsigned long long)kSeed);
+  Random random(kSeed);
+  for (int round = 0; round < 3000; ++round) {
+    const int size = 1 << random.between(2, 7);
+    const double extent = std::exp2(random.between(-7.0, 0.0));
+    const DVector middle(random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(0.4, 1.0));
+    float corners[3][3];
+    for (auto& corner : corners) {
+      const DVector place = middle + extent * DVector(random.direction());
+      for (int axis = 0; axis < 3; ++axis) corner[axis] = static_cast<float>(place[axis]);
+      corner[2] = std::max(corner[2], 0.01f);
+      corner[0] = std::clamp(corner[0], -1.2f, 1.2f);
+      corner[1] = std::clamp(corner[1], -1.2f, 1.2f);
+    }
+    const FaceTexels face(corners[0], corners[1], corners[2], size);
+    std::vector<FaceTexels::Piece> pieces(static_cast<std::size_t>(size * size), {0, 1, 0, false});
+    face.for_each([&](const FaceTexels::Piece& piece) { pieces[piece.texel] = piece; });
+    for (int k = 0; k < 200; ++k) {
+      double s = random.between(0.0, 1.0), t = random.between(0.0, 1.0);
+      if (s + t > 1) s = 1 - s, t = 1 - t;
+      double place[3];
+      for (int axis = 0; axis < 3; ++axis) {
+        place[axis] = (1 - s - t) * corners[0][axis] + s * corners[1][axis] + t * corners[2][axis];
+      }
+      if (std::fabs(place[0]) > 1 || std::fabs(place[1]) > 1) continue;
+      const int column = texel_of(static_cast<float>(place[0]), size),
+                row = texel_of(static_cast<float>(place[1]), size);
+      const FaceTexels::Piece& piece = pieces[static_cast<std::size_t>(row * size + column)];
+      ASSERT_LE(piece.least, place[2]) << round;
+      ASSERT_GE(piece.greatest, place[2]) << round;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace facemap
