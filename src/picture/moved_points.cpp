@@ -38,9 +38,8 @@ double most_steps(const std::vector<Vector>& positions, const Executor& executor
 // by 2^-53 of at most 2^30 steps.
 constexpr double kRoundingError = 0.8662;  // steps
 
-// Doubles the step `times` times.
-void coarsen(int times, const Executor& executor, AskedPoints& points) {
-  const double share = std::ldexp(1.0, -times);
+// Makes the step larger: 1 / share, a power of two, times as large.
+void coarsen(double share, const Executor& executor, AskedPoints& points) {
   points.step /= share;
   points.error += kRoundingError * points.step;
   for (auto* coordinates : {&points.x, &points.y, &points.z}) {
@@ -58,9 +57,10 @@ const Vector& MovedPoints::position_of(std::uint32_t number) const {
 }
 
 void put_in_place(const MovedPoints& moved, const Executor& executor, AskedPoints& points) {
-  int times = 0;
-  for (double steps = most_steps(moved.positions, executor, points); steps >= kMostSteps; steps *= 0.5) ++times;
-  if (times > 0) coarsen(times, executor, points);
+  const double steps = most_steps(moved.positions, executor, points);
+  double share = 1;
+  while (steps * share >= kMostSteps) share *= 0.5;
+  if (share < 1) coarsen(share, executor, points);
   points.error = std::max(points.error, kRoundingError * points.step);
   for_ranges(executor, moved.numbers.size(), kFewestPoints, [&](std::size_t first, std::size_t last, int) {
     for (std::size_t k = first; k < last; ++k) {
