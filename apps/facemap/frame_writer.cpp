@@ -9,7 +9,7 @@
 namespace facemap::program {
 namespace {
 
-double write(const Image& image, const FrameFiles& files, int threads) {
+double write_files(const Image& image, const FrameFiles& files, int threads) {
   Stopwatch time;
   if (is_standard_output(files.picture))
     write_to_standard_output(encode_png(image, threads));  // a pipe may never take it
@@ -24,10 +24,16 @@ double write(const Image& image, const FrameFiles& files, int threads) {
 
 }  // namespace
 
-void FrameWriter::begin(Image image, const FrameFiles& files, int threads) {
+void FrameWriter::begin(Image image, const FrameFiles& files) {
   finish();
-  frame_ = std::async(std::launch::async,
-                      [image = std::move(image), files, threads] { return write(image, files, threads); });
+  frame_ = std::async(std::launch::async, [image = std::move(image), files] { return write_files(image, files, 1); });
+}
+
+void FrameWriter::write(const Image& image, const FrameFiles& files, int threads) {
+  finish();
+  const double milliseconds = write_files(image, files, threads);
+  written_ms_ += milliseconds;
+  waited_ms_ += milliseconds;
 }
 
 void FrameWriter::finish() {

@@ -21,13 +21,16 @@ class FrameWriter {
   FrameWriter(const FrameWriter&) = delete;
   FrameWriter& operator=(const FrameWriter&) = delete;
 
-  /// Waits for the frame before, whose failure it throws, and begins to write this one on so many threads.
-  void begin(Image image, const FrameFiles& files, int threads);
+  /// Waits for the frame before, whose failure it throws, and begins to write this one on a thread of its own.
+  void begin(Image image, const FrameFiles& files);
+
+  /// The same, but writes this one on so many threads and returns when it is done.
+  void write(const Image& image, const FrameFiles& files, int threads);
 
   /// Waits for the last frame and throws its failure.
   void finish();
 
-  /// Milliseconds that begin() and finish() waited, and those that the writing itself took.
+  /// Milliseconds that begin(), write() and finish() waited, and those that the writing itself took.
   double waited_ms() const noexcept { return waited_ms_; }
   double written_ms() const noexcept { return written_ms_; }
 

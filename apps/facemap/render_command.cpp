@@ -49,11 +49,13 @@ void render_frames(Renderer& renderer, const std::vector<View>& views, const std
       return true;
     });
     stats.add_frame(renderer.statistics());
-    const bool is_last = i + 1 == views.size();
-    writer.begin(std::move(image), files[i], is_last ? threads : 1);  // the others are at work on the next
+    if (i + 1 < views.size()) {
+      writer.begin(std::move(image), files[i]);
+    } else {
+      line.clear();
+      writer.write(image, files[i], threads);
+    }
   }
-  line.clear();
-  writer.finish();
   stats.write_ms = writer.written_ms();
   stats.wait_ms = writer.waited_ms();
 }
