@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kChunk = 4096;
 
 // The same where they are dealt to bands of rows first: more fill the lanes better.
-constexpr std::size_t kLargestDeal = 1 << 14;
+constexpr std::size_t kLargestDeal = 1 << 13;
 
 // Bands of rows a thread, so that crowded ones even out.
 constexpr int kBandsPerThread = 6;
