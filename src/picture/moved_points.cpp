@@ -57,9 +57,9 @@ const Vector& MovedPoints::position_of(std::uint32_t number) const {
 }
 
 void put_in_place(const MovedPoints& moved, const Executor& executor, AskedPoints& points) {
-  const double steps = most_steps(moved.positions, executor, points);
+  const double most = most_steps(moved.positions, executor, points);
   double share = 1;
-  while (steps * share >= kMostSteps) share *= 0.5;
+  while (most * share >= kMostSteps) share *= 0.5;
   if (share < 1) coarsen(share, executor, points);
   points.error = std::max(points.error, kRoundingError * points.step);
   for_ranges(executor, moved.numbers.size(), kFewestPoints, [&](std::size_t first, std::size_t last, int) {
