@@ -9,6 +9,7 @@
 #include "map/nearest_hit.h"
 #include "math/exact_sign.h"
 #include "picture/coplanar_pairs.h"
+#include "simd/nearest_draw.h"
 
 // Why the nearest face T of a sample is the raster's winner or among the contests that are asked here. If its cover is
 // unsure or its depth not sharp, it was contested unless surely behind a face that surely covers the sample: it is not.
@@ -109,6 +110,7 @@ class Judge {
 
 std::size_t resolve_contests(const Scene& scene, const SampleGrid& grid, const RasterPlace& place,
                              const simd::RasterTarget& target, std::vector<std::uint32_t>& loose, Counters* counters) {
+  simd::draw_waiting(target);
   simd::Contests& contests = *target.contests;
   std::erase_if(contests,
                 [&](const simd::Contest& c) { return c.largest_w < target.w[c.sample] * simd::kSurelyBehind; });
@@ -121,14 +123,15 @@ std::size_t resolve_contests(const Scene& scene, const SampleGrid& grid, const R
     const std::uint32_t sample = contests[i].sample;
     faces.clear();
     for (; i < contests.size() && contests[i].sample == sample; ++i) faces.push_back(contests[i]);
-    if (target.faces[sample] >= 0) faces.push_back({sample, static_cast<std::uint32_t>(target.faces[sample]), 0});
+    if (target.w[sample] > 0) faces.push_back({sample, static_cast<std::uint32_t>(target.faces[sample]), 0});
     std::sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return face_of(a) < face_of(b); });
 
-    const int column = place.first_column + static_cast<int>(sample % target.columns);
-    const int row = place.first_row + static_cast<int>(sample / target.columns);
+    const int column = place.first_column + simd::column_of(target.row_samples, sample);
+    const int row = place.first_row + simd::row_of(target.row_samples, sample);
     const std::optional<Camera::Hit> tie = judge.tie_of(faces);
     const Camera::Hit hit = tie ? *tie : judge.nearest(faces, grid.direction(column, row));
     target.faces[sample] = hit.face;
+    target.w[sample] = 1;  // has a face, which may be kNoFace
     if (!hit || (hit.strictly_inside && !hit.tied)) continue;
     loose.push_back(static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(grid.columns()) +
                     static_cast<std::uint32_t>(column));

@@ -6,10 +6,12 @@
 
 #include "map/face_planes.h"
 #include "math/exact_sign.h"
+#include "picture/block_raster.h"
 #include "picture/nearest_contests.h"
 #include "picture/nearest_queues.h"
 #include "picture/pages.h"
 #include "scene/reserve_pages.h"
+#include "simd/nearest_blocks.h"
 #include "simd/nearest_draw.h"
 
 namespace facemap {
@@ -34,10 +36,9 @@ class PlaneRaster {
         view_(view),
         executor_(executor),
         points_(2 * (scene.mesh().positions.size() + simd::kVertexRoom)),
-        w_(grid.count()) {
+        samples_(grid.columns(), grid.rows()) {
     const Mesh& mesh = scene.mesh();
     source_ = {mesh.triangles.data()->data(), &mesh.positions.data()->x};
-    reserve_pages(nearest_.faces, grid.count());
   }
 
   NearestFaces run(Counters* counters) {
@@ -55,9 +56,12 @@ class PlaneRaster {
   struct Band {
     int first_row, last_row;
     simd::Contests contests;
+    std::unique_ptr<simd::Fragments> fragments = std::make_unique<simd::Fragments>();
     std::vector<std::uint32_t> loose;
     Counters counters;
     std::size_t contested = 0;
+
+    Band(int first, int last) : first_row(first), last_row(last) {}
   };
 
   void project() {
@@ -75,10 +79,8 @@ class PlaneRaster {
   }
 
   void draw_all_at_once() {
-    bands_.push_back({0, grid_.rows() - 1, {}, {}, {}, 0});
+    bands_.emplace_back(0, grid_.rows() - 1);
     BoxQueues queues(kChunk);
-    clear_faces();
-    clear_depths(bands_[0]);
     for (std::size_t first = 0; first < scene_.face_count(); first += kChunk) {
       find_boxes(first, kChunk, queues);
       for (int q = 0; q < BoxQueues::kQueues; ++q) draw(q, queues[q], bands_[0]);
@@ -86,23 +88,26 @@ class PlaneRaster {
   }
 
   void draw_in_bands() {
-    const int rows = grid_.rows(), count = std::min(rows, kBandsPerThread * executor_.threads());
+    // Rows of blocks stay together.
+    const int rows = grid_.rows(), all = (rows + simd::kBlockSide - 1) / simd::kBlockSide;
+    const int count = std::min(all, kBandsPerThread * executor_.threads());
     std::vector<std::uint16_t> band_of_row(static_cast<std::size_t>(rows));
     for (int i = 0; i < count; ++i) {
-      const auto row = [&](int k) { return static_cast<int>(static_cast<std::int64_t>(rows) * k / count); };
-      bands_.push_back({row(i), row(i + 1) - 1, {}, {}, {}, 0});
+      const auto row = [&](int k) {
+        return std::min(static_cast<int>(static_cast<std::int64_t>(all) * k / count) * simd::kBlockSide, rows);
+      };
+      bands_.emplace_back(row(i), row(i + 1) - 1);
       std::fill(band_of_row.begin() + row(i), band_of_row.begin() + row(i + 1), static_cast<std::uint16_t>(i));
     }
     const std::vector<DealtBoxes> dealt = deal(band_of_row);
     executor_.for_each(bands_.size(), [&](std::size_t i, int) {
-      clear_depths(bands_[i]);
       for (const DealtBoxes& boxes : dealt) {
         for (int q = 0; q < BoxQueues::kQueues; ++q) draw(q, boxes.of(q, i), bands_[i]);
       }
     });
   }
 
-  // And clears the faces meanwhile.
+  // And makes room for the picture's faces meanwhile.
   std::vector<DealtBoxes> deal(const std::vector<std::uint16_t>& band_of_row) {
     const std::size_t tasks = std::size_t{4} * executor_.threads();
     const std::size_t size = std::clamp(scene_.face_count() / tasks + 1, kChunk, kLargestDeal);
@@ -110,7 +115,7 @@ class PlaneRaster {
     std::vector<std::unique_ptr<BoxQueues>> queues_of;  // one a worker: they are large, and fresh memory is dear
     for (int i = 0; i < executor_.threads(); ++i) queues_of.push_back(std::make_unique<BoxQueues>(size));
     executor_.for_each(dealt.size() + 1, [&](std::size_t i, int worker) {
-      if (i == dealt.size()) return clear_faces();
+      if (i == dealt.size()) return resize_pages(nearest_.faces, grid_.count());
       BoxQueues& queues = *queues_of[static_cast<std::size_t>(worker)];
       find_boxes(i * size, size, queues);
       dealt[i].deal(queues, band_of_row, bands_.size());
@@ -118,17 +123,8 @@ class PlaneRaster {
     return dealt;
   }
 
-  void clear_faces() { nearest_.faces.assign(grid_.count(), kNoFace); }
-
-  void clear_depths(const Band& band) {
-    const auto columns = static_cast<std::size_t>(grid_.columns());
-    const auto rows = static_cast<std::size_t>(band.last_row + 1 - band.first_row);
-    std::fill_n(w_.data() + static_cast<std::size_t>(band.first_row) * columns, rows * columns, 0.0f);
-  }
-
   simd::RasterTarget target(Band& band) {
-    return {w_.data(),      nearest_.faces.data(), static_cast<std::uint32_t>(grid_.columns()),
-            band.first_row, band.last_row,         &band.contests};
+    return samples_.target(band.first_row, band.last_row, &band.contests, band.fragments.get());
   }
 
   void draw(int queue, const simd::BoxQueue& boxes, Band& band) {
@@ -184,9 +180,13 @@ class PlaneRaster {
   }
 
   void finish(Counters* counters) {
+    if (nearest_.faces.empty()) resize_pages(nearest_.faces, grid_.count());
+    const auto columns = static_cast<std::size_t>(grid_.columns());
     executor_.for_each(bands_.size(), [&](std::size_t i, int) {
       Band& band = bands_[i];
       band.contested = resolve_contests(scene_, grid_, {}, target(band), band.loose, &band.counters);
+      std::sort(band.loose.begin(), band.loose.end());
+      simd::copy_rows(target(band), columns, nearest_.faces.data(), columns);
     });
     if (counters != nullptr) counters->by_float += grid_.count();
     for (const Band& band : bands_) {
@@ -200,7 +200,8 @@ class PlaneRaster {
   const SampleGrid& grid_;
   const PlaneView& view_;
   const Executor& executor_;
-  Pages<float> points_, w_;
+  Pages<float> points_;
+  BlockRaster samples_;
   simd::FaceSource source_;
   NearestFaces nearest_;
   std::vector<Band> bands_;

@@ -115,6 +115,8 @@ SurfaceView::SurfaceView(const Scene& scene, const SampleGrid& grid) {
   boxes.longest_squared = static_cast<float>(kLongestEdge * kLongestEdge * f * f * (1 - 0x1p-6));
 
   while (tile_side < kLargestTile && 2 * tile_side * sample_angle <= kLargestTileAngle) tile_side *= 2;
+  const int blocks = std::max(1, tile_side / simd::kBlockSide);
+  row_samples = static_cast<std::uint32_t>(blocks) * simd::kBlockSamples;
   tile_columns = (grid.columns() + tile_side - 1) / tile_side;
   tile_rows = (grid.rows() + tile_side - 1) / tile_side;
 }
@@ -146,37 +148,36 @@ void TilePlane::set(const SurfaceView& view, const SampleGrid& grid, const RayTa
   store(x, 1, axes[0]);
   store(y, 1, axes[1]);
   store(z, 1, axes[2]);
-  set_points(axes, f, grid, rays, tile, static_cast<std::size_t>(view.tile_side));
+  set_points(axes, view, grid, rays, tile);
   // Points are rounded to float32; in double, sums and the division lose less than 2^-48 of f.
   set_errors(f, reach, 2 * kFloatHalfUlp * reach + 0x1p-44 * f, frame);
 }
 
-// Rows in batches; columns beyond the tile's repeat its last.
-void TilePlane::set_points(const double axes[3][3], double per_radian, const SampleGrid& grid, const RayTable& rays,
-                           const SurfaceTile& tile, std::size_t side) {
+// Samples in batches; those beyond the tile repeat its last row and column.
+void TilePlane::set_points(const double axes[3][3], const SurfaceView& view, const SampleGrid& grid,
+                           const RayTable& rays, const SurfaceTile& tile) {
   reach = 0;
-  double columns[simd::kSeenBatch] = {}, rows[simd::kSeenBatch] = {};
-  float x[simd::kSeenBatch] = {}, y[simd::kSeenBatch] = {}, z[simd::kSeenBatch] = {};
-  const std::size_t rows_a_batch = std::max<std::size_t>(1, simd::kSeenBatch / side);
-  const auto row_count = static_cast<std::size_t>(tile.rows), last_column = static_cast<std::size_t>(tile.columns) - 1;
-  for (std::size_t first = 0; first < row_count; first += rows_a_batch) {
-    const std::size_t last = std::min(first + rows_a_batch, row_count), count = (last - first) * side;
-    const std::size_t room = (count + simd::kBlockFaces - 1) / simd::kBlockFaces * simd::kBlockFaces;
-    for (std::size_t i = 0; i < room; ++i) {
-      const std::size_t row = std::min(first + i / side, last - 1), column = std::min(i % side, last_column);
-      columns[i] = rays.columns[static_cast<std::size_t>(tile.first_column) + column];
-      rows[i] = rays.rows[static_cast<std::size_t>(tile.first_row) + row];
+  double columns[simd::kSeenBatch], rows[simd::kSeenBatch];
+  float x[simd::kSeenBatch], y[simd::kSeenBatch], z[simd::kSeenBatch];
+  const std::size_t all = view.samples();
+  for (std::size_t first = 0; first < all; first += simd::kSeenBatch) {
+    const std::size_t count = std::min(simd::kSeenBatch, all - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto sample = static_cast<std::uint32_t>(first + i);
+      const int column = std::min(simd::column_of(view.row_samples, sample), tile.columns - 1);
+      const int row = std::min(simd::row_of(view.row_samples, sample), tile.rows - 1);
+      columns[i] = rays.columns[static_cast<std::size_t>(tile.first_column + column)];
+      rows[i] = rays.rows[static_cast<std::size_t>(tile.first_row + row)];
     }
-    simd::ray_directions(rays.frame, columns, rows, room, x, y, z);
-    const std::size_t at = first * side;
-    reach = std::max(reach, simd::find_tile_points(axes, per_radian, x, y, z, room, u + at, v + at));
+    simd::ray_directions(rays.frame, columns, rows, count, x, y, z);
+    reach = std::max(reach, simd::find_tile_points(axes, 1 / view.sample_angle, x, y, z, count, u + first, v + first));
   }
   if (tile.is_whole) return;
   for (int row = 0; row < tile.rows; ++row) {
     for (int column = 0; column < tile.columns; ++column) {
       const MapPoint point = grid.map_point(tile.first_column + column, tile.first_row + row);
       if (grid.projection.has_direction(point)) continue;
-      const std::size_t i = static_cast<std::size_t>(row) * side + static_cast<std::size_t>(column);
+      const std::uint32_t i = simd::sample_at(view.row_samples, column, row);
       u[i] = v[i] = std::numeric_limits<float>::quiet_NaN();
     }
   }

@@ -25,9 +25,11 @@ struct SurfaceView {
   double sample_angle = 0;  ///< radians
   int tile_side = 1;        ///< samples; a power of two, at most kLargestTile
   int tile_columns = 0, tile_rows = 0;
-  simd::PlaneFrame directions;  ///< (X, Y, Z) in the camera's axes, for set_up_large and find_tiles
+  std::uint32_t row_samples = simd::kBlockSamples;  ///< of a tile's raster, and as many rows of blocks
+  simd::PlaneFrame directions;                      ///< (X, Y, Z) in the camera's axes, for set_up_large and find_tiles
 
   static constexpr int kLargestTile = 32;
+  std::size_t samples() const { return std::size_t{row_samples} * row_samples / simd::kBlockSamples; }
 };
 
 /// The samples of one tile.
@@ -39,18 +41,18 @@ struct SurfaceTile {
 
 SurfaceTile tile_of(const SurfaceView& view, const SampleGrid& grid, std::size_t tile);
 
-/// The directions of a tile's samples on a plane of its own.
+/// The directions of a tile's samples on a plane of its own, in blocks as in its raster.
 struct TilePlane {
   simd::PlaneFrame frame;
   double reach = 0;
-  alignas(64) float u[SurfaceView::kLargestTile * SurfaceView::kLargestTile + simd::kBlockFaces] = {};
-  alignas(64) float v[SurfaceView::kLargestTile * SurfaceView::kLargestTile + simd::kBlockFaces] = {};
+  alignas(64) float u[SurfaceView::kLargestTile * SurfaceView::kLargestTile] = {};
+  alignas(64) float v[SurfaceView::kLargestTile * SurfaceView::kLargestTile] = {};
 
   void set(const SurfaceView& view, const SampleGrid& grid, const RayTable& rays, const SurfaceTile& tile);
 
  private:
-  void set_points(const double axes[3][3], double per_radian, const SampleGrid& grid, const RayTable& rays,
-                  const SurfaceTile& tile, std::size_t side);
+  void set_points(const double axes[3][3], const SurfaceView& view, const SampleGrid& grid, const RayTable& rays,
+                  const SurfaceTile& tile);
 };
 
 /// Caps of all tiles, in the camera's axes.

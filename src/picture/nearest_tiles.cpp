@@ -10,6 +10,7 @@
 #include "picture/nearest_surface.h"
 #include "picture/pages.h"
 #include "scene/reserve_pages.h"
+#include "simd/nearest_blocks.h"
 
 namespace facemap {
 namespace {
@@ -63,8 +64,7 @@ class TileRaster {
   void draw(std::size_t number, const TileFace* first, const TileFace* last, NearestFaces& nearest,
             std::vector<std::uint32_t>& loose, Counters& counters) {
     const SurfaceTile tile = tile_of(view_, grid_, number);
-    std::fill(std::begin(w_), std::end(w_), 0.0f);
-    std::fill(std::begin(faces_), std::end(faces_), kNoFace);
+    std::fill_n(w_, view_.samples(), 0.0f);
     contests_.clear();
     if (first != last && !tile.is_empty) {
       plane_.set(view_, grid_, rays_, tile);
@@ -72,19 +72,17 @@ class TileRaster {
       for (int c = 0; c <= kClasses; ++c) flush(c);
     }
     const std::size_t contested =
-        resolve_contests(scene_, grid_, {tile.first_column, tile.first_row}, target(), loose, &counters);
+        resolve_contests(scene_, grid_, {tile.first_column, tile.first_row}, target(view_.tile_side), loose, &counters);
     counters.by_float += static_cast<std::size_t>(tile.rows) * static_cast<std::size_t>(tile.columns) - contested;
-    for (int row = 0; row < tile.rows; ++row) {
-      const auto at = static_cast<std::size_t>(tile.first_row + row) * static_cast<std::size_t>(grid_.columns()) +
-                      static_cast<std::size_t>(tile.first_column);
-      std::copy_n(faces_ + row * view_.tile_side, tile.columns, nearest.faces.data() + at);
-    }
+    const auto columns = static_cast<std::size_t>(grid_.columns());
+    const std::size_t first_sample =
+        static_cast<std::size_t>(tile.first_row) * columns + static_cast<std::size_t>(tile.first_column);
+    simd::copy_rows(target(tile.rows), static_cast<std::size_t>(tile.columns), nearest.faces.data() + first_sample,
+                    columns);
   }
 
  private:
-  simd::RasterTarget target() {
-    return {w_, faces_, static_cast<std::uint32_t>(view_.tile_side), 0, view_.tile_side - 1, &contests_};
-  }
+  simd::RasterTarget target(int rows) { return {w_, faces_, view_.row_samples, 0, rows - 1, &contests_, &fragments_}; }
 
   void add(const TileFace& face) {
     const int samples = (face.x1 - face.x0 + 1) * (face.y1 - face.y0 + 1);
@@ -101,12 +99,12 @@ class TileRaster {
     const simd::TilePoints points = {plane_.u, plane_.v};
     simd::FaceBlock block;
     simd::set_up_tile_faces(source_, plane_.frame, plane_.reach, boxes.faces, boxes.count, nullptr, block);
-    if (c < kClasses) simd::draw_tile_faces(block, boxes, points, target());
+    if (c < kClasses) simd::draw_tile_faces(block, boxes, points, target(view_.tile_side));
     for (std::size_t k = 0; k < boxes.count; ++k) {
       if (block.is_unsure[k]) {
         draw_edge_on(boxes, k);
       } else if (c == kClasses) {
-        simd::draw_tile_rows(block, boxes, k, points, target());
+        simd::draw_tile_face(block, boxes, k, points, target(view_.tile_side));
       }
     }
     pending.count = 0;
@@ -119,10 +117,10 @@ class TileRaster {
     const simd::FaceBoxes one = {boxes.faces + k, boxes.x0 + k, boxes.x1 + k, boxes.y0 + k, boxes.y1 + k, 1};
     simd::FaceBlock block;
     simd::set_up_tile_faces(source_, plane_.frame, plane_.reach, one.faces, 1, &s, block);
-    simd::draw_tile_rows(block, one, 0, {plane_.u, plane_.v}, target());
+    simd::draw_tile_face(block, one, 0, {plane_.u, plane_.v}, target(view_.tile_side));
   }
 
-  static constexpr int kSamples = SurfaceView::kLargestTile * SurfaceView::kLargestTile + int{simd::kBlockFaces};
+  static constexpr int kSamples = SurfaceView::kLargestTile * SurfaceView::kLargestTile;
 
   const Scene& scene_;
   const SampleGrid& grid_;
@@ -130,9 +128,10 @@ class TileRaster {
   const RayTable& rays_;
   const simd::FaceSource& source_;
   TilePlane plane_;
-  float w_[kSamples];
-  FaceId faces_[kSamples];
+  alignas(64) float w_[kSamples];
+  alignas(64) FaceId faces_[kSamples];
   simd::Contests contests_;
+  simd::Fragments fragments_;
   Pending pending_[kClasses + 1];
 };
 
@@ -240,8 +239,7 @@ class SurfaceRaster {
 
   NearestFaces draw(Counters* counters) {
     NearestFaces nearest;
-    reserve_pages(nearest.faces, grid_.count());
-    nearest.faces.resize(grid_.count());
+    resize_pages(nearest.faces, grid_.count());
     const auto threads = static_cast<std::size_t>(executor_.threads());
     std::vector<std::unique_ptr<TileRaster>> rasters(threads);
     std::vector<Counters> counts(threads);

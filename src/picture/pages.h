@@ -2,24 +2,35 @@
 
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <new>
 
 namespace facemap {
 
-/// An array of plain numbers without values to begin with. If it is large it stands on huge pages where the system
-/// gives them: one that is written once is mostly page faults otherwise.
+/// Plain numbers, all zero to begin with, that begin at a multiple of 64 bytes. Fresh memory is mostly page faults: a
+/// large array stands on huge pages where the system gives them, and a smaller one gets all its pages at once.
 template <class Value>
 class Pages {
  public:
-  explicit Pages(std::size_t count) : bytes_(count * sizeof(Value)), alignment_(bytes_ < kHugePage ? 64 : kHugePage) {
-    data_ = static_cast<Value*>(::operator new(bytes_, std::align_val_t(alignment_)));
+  explicit Pages(std::size_t count) {
+    const std::size_t bytes = std::max<std::size_t>(1, count * sizeof(Value));
+    mapped_ = bytes < kHugePage ? bytes : bytes + kHugePage;  // room to begin at a huge page
+    start_ = ::mmap(nullptr, mapped_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (start_ == MAP_FAILED) throw std::bad_alloc();
+    char* begin = static_cast<char*>(start_);
+    if (bytes >= kHugePage) begin += (kHugePage - reinterpret_cast<std::uintptr_t>(begin) % kHugePage) % kHugePage;
+    const std::size_t on_huge_pages = bytes / kHugePage * kHugePage;
 #ifdef MADV_HUGEPAGE
-    // The rest, below one huge page, is left to ordinary ones.
-    if (bytes_ >= kHugePage) ::madvise(data_, bytes_ / kHugePage * kHugePage, MADV_HUGEPAGE);
+    if (on_huge_pages > 0) ::madvise(begin, on_huge_pages, MADV_HUGEPAGE);
 #endif
+#ifdef MADV_POPULATE_WRITE
+    ::madvise(begin + on_huge_pages, bytes - on_huge_pages, MADV_POPULATE_WRITE);
+#endif
+    data_ = reinterpret_cast<Value*>(begin);
   }
-  ~Pages() { ::operator delete(data_, std::align_val_t(alignment_)); }
+  ~Pages() { ::munmap(start_, mapped_); }
   Pages(const Pages&) = delete;
   Pages& operator=(const Pages&) = delete;
 
@@ -28,8 +39,9 @@ class Pages {
  private:
   static constexpr std::size_t kHugePage = std::size_t{1} << 21;
 
-  std::size_t bytes_, alignment_;
-  Value* data_ = nullptr;
+  void* start_;
+  std::size_t mapped_;
+  Value* data_;
 };
 
 }  // namespace facemap

@@ -27,6 +27,12 @@ using VI = hn::Vec<DI>;
 using M = hn::Mask<D>;
 
 constexpr std::size_t kRoom = kBlockFaces;  // a vector's lanes at most
+static_assert(kBlockSide == 4 && kBlockSamples == kRoom);
+
+// Where the samples of a block stand in it.
+alignas(64) constexpr float kColumnsInBlock[kRoom] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+alignas(64) constexpr float kRowsInBlock[kRoom] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+
 constexpr float kInverseSharpness = 0x1p-17f;
 
 // Coefficients of faces in lanes or of one face in all.
@@ -95,62 +101,63 @@ HWY_INLINE void draw_unsure_lanes(const RasterTarget& target, M which, M inside,
   }
 }
 
+HWY_INLINE void draw_fragments(const RasterTarget& target) {
+  Fragments& f = *target.fragments;
+  const RasterTarget t = target;  // of its own: nothing that is stored may change it
+  const std::size_t count = f.count;
+  for (std::size_t i = 0; i < count; ++i) draw_sample(t, static_cast<std::uint32_t>(f.samples[i]), f.w[i], f.faces[i]);
+  f.count = 0;
+}
+
 // Fragments of different faces, in any samples: `near` lanes are not surely outside, `inside` ones surely inside.
 HWY_INLINE void draw_scattered(const RasterTarget& target, M near, M inside, V w, V sharp, VI samples, VI faces) {
   const D d;
   const DI di;
   const M sure = hn::And(inside, hn::Ge(w, sharp));
-  alignas(64) float ws[kRoom];
-  alignas(64) std::int32_t at[kRoom], ids[kRoom];
-  hn::CompressStore(w, sure, d, ws);
-  hn::CompressStore(faces, hn::RebindMask(di, sure), di, ids);
-  const std::size_t count = hn::CompressStore(samples, hn::RebindMask(di, sure), di, at);
-  for (std::size_t i = 0; i < count; ++i) draw_sample(target, static_cast<std::uint32_t>(at[i]), ws[i], ids[i]);
+  Fragments& f = *target.fragments;
+  const std::size_t n = f.count;
+  hn::StoreU(hn::Compress(w, sure), d, f.w + n);
+  hn::StoreU(hn::Compress(faces, hn::RebindMask(di, sure)), di, f.faces + n);
+  hn::StoreU(hn::Compress(samples, hn::RebindMask(di, sure)), di, f.samples + n);
+  f.count = n + hn::CountTrue(d, sure);
+  if (f.count > Fragments::kRoom - kRoom) draw_fragments(target);
   const M unsure = hn::AndNot(sure, near);
   if (!hn::AllFalse(d, unsure)) draw_unsure_lanes(target, unsure, inside, w, sharp, samples, faces);
 }
 
-// Fragments of one face in neighbouring samples. Those from `count` on are not touched.
-HWY_INLINE void draw_neighbours(const RasterTarget& target, M near, M inside, V w, V sharp, std::uint32_t first,
-                                std::size_t count, std::uint32_t id) {
+// Fragments of one face in the samples of a block from `first` on, as many as there are lanes.
+HWY_INLINE void draw_in_block(const RasterTarget& target, M near, M inside, V w, V sharp, std::uint32_t first,
+                              VI face) {
   const D d;
   const DI di;
   const M sure = hn::And(inside, hn::Ge(w, sharp));
-
-  // The last samples of a row are copied, so that nothing beyond it is touched.
-  alignas(64) float last_w[kRoom] = {};
-  alignas(64) std::int32_t last_faces[kRoom] = {};
-  const bool is_whole = count >= hn::Lanes(d);
-  float* ws = target.w + first;
-  std::int32_t* ids = target.faces + first;
-  if (!is_whole) {
-    std::copy(ws, ws + count, last_w);
-    std::copy(ids, ids + count, last_faces);
-    ws = last_w;
-    ids = last_faces;
-  }
-  const V old_w = hn::LoadU(d, ws);
-  const VI old_ids = hn::LoadU(di, ids);
-  const VI new_ids = hn::Set(di, static_cast<std::int32_t>(id));
+  const V old_w = hn::Load(d, target.w + first);
+  const VI old_faces = hn::Load(di, target.faces + first);
   const M front = hn::And(sure, hn::Gt(w, old_w));
   const VI apart = hn::Sub(hn::BitCast(di, w), hn::BitCast(di, old_w));
-  const auto close = hn::And(hn::Lt(hn::Abs(apart), hn::Set(di, kCloseUlps + 1)), hn::Gt(old_ids, hn::Set(di, -1)));
-  hn::StoreU(hn::IfThenElse(front, w, old_w), d, ws);
-  hn::StoreU(hn::IfThenElse(hn::RebindMask(di, front), new_ids, old_ids), di, ids);
-  if (!is_whole) {
-    std::copy(last_w, last_w + count, target.w + first);
-    std::copy(last_faces, last_faces + count, target.faces + first);
-  }
+  const M close = hn::RebindMask(d, hn::Lt(hn::Abs(apart), hn::Set(di, static_cast<std::int32_t>(kCloseUlps) + 1)));
+  hn::Store(hn::IfThenElse(front, w, old_w), d, target.w + first);
+  hn::Store(hn::IfThenElse(hn::RebindMask(di, front), face, old_faces), di, target.faces + first);
 
-  const VI samples = hn::Add(hn::Set(di, static_cast<std::int32_t>(first)), hn::Iota(di, 0));
-  const M contested = hn::And(sure, hn::RebindMask(d, close));
-  if (!hn::AllFalse(d, contested)) {
-    const V loser_w = hn::IfThenElse(front, old_w, w);
-    const VI losers = hn::IfThenElse(hn::RebindMask(di, front), old_ids, new_ids);
-    draw_unsure_lanes(target, contested, contested, loser_w, hn::Zero(d), samples, losers);
-  }
+  const M contested = hn::And(hn::And(sure, close), hn::Gt(old_w, hn::Zero(d)));
   const M unsure = hn::AndNot(sure, near);
-  if (!hn::AllFalse(d, unsure)) draw_unsure_lanes(target, unsure, inside, w, sharp, samples, new_ids);
+  if (hn::AllFalse(d, hn::Or(contested, unsure))) return;
+  const VI samples = hn::Add(hn::Set(di, static_cast<std::int32_t>(first)), hn::Iota(di, 0));
+  const V loser_w = hn::IfThenElse(front, old_w, w);
+  const VI losers = hn::IfThenElse(hn::RebindMask(di, front), old_faces, face);
+  draw_unsure_lanes(target, contested, contested, loser_w, hn::Zero(d), samples, losers);
+  draw_unsure_lanes(target, unsure, inside, w, sharp, samples, face);
+}
+
+// The number of a sample is the sum of these of its row and of its column.
+HWY_INLINE VI row_part(VI row, std::uint32_t row_samples) {
+  const DI di;
+  const VI block = hn::Mul(hn::ShiftRight<2>(row), hn::Set(di, static_cast<std::int32_t>(row_samples)));
+  return hn::Add(block, hn::ShiftLeft<2>(hn::And(row, hn::Set(di, 3))));
+}
+HWY_INLINE VI column_part(VI column) {
+  const VI before = hn::And(column, hn::Set(DI(), ~3));  // columns of blocks before its own: 4 samples each
+  return hn::Add(column, hn::Add(before, hn::ShiftLeft<1>(before)));
 }
 
 }  // namespace

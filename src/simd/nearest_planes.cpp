@@ -38,6 +38,7 @@ constexpr double kEdgeRoundings = 15 * 0x1p-24;
 constexpr double kDepthRoundings = 10 * 0x1p-24;
 constexpr double kShiftSlack = 1 + 0x1p-10;  // for bounds that are rounded themselves
 constexpr double kSharpness = 0x1p17;        // half of a sharp w's error may come from the bound
+constexpr double kLeastSharp = 0x1p-100;     // above 0: a sharp w is
 constexpr double kSharpDeterminant = 0x1p20;
 constexpr double kLargestDepth = 0x1p60;  // coefficients of w; times |u| and |v| below 2^20
 constexpr double kLargestFloat = 0x1p100;
@@ -151,7 +152,7 @@ HWY_INLINE Planes planes_of(const PlaneFrame& f, const Corners& corners, std::si
   const V local = hn::Mul(constant(kDepthRoundings), hn::Add(hn::Mul(A, width), hn::Mul(B, height)));
   const V lost = hn::Mul(hn::Mul(constant(f.value_error), qq), hn::Abs(inverse));
   const V bound = hn::Add(hn::Add(local, hn::Mul(shift, hn::Add(A, B))), lost);
-  const V sharp = hn::Mul(bound, constant(kSharpness));
+  const V sharp = hn::Max(hn::Mul(bound, constant(kSharpness)), constant(kLeastSharp));
   planes.sharp =
       hn::IfThenElse(hn::And(has_depth, hn::Lt(sharp, constant(kLargestFloat))), sharp, constant(kNeverSharp));
   return planes;
@@ -232,7 +233,8 @@ void set_up_large(const FaceSource& source, const PlaneFrame& frame, const std::
   alignas(64) double values[13][kBlockFaces];
   std::uint8_t is_unsure[kBlockFaces];
   for (std::size_t i = 0; i < kBlockFaces; i += hn::Lanes(d)) {
-    const Planes planes = planes_of(frame, corners, i, constant(kLargeRun), hn::Zero(d), hn::Load(d, side + i));
+    const Planes planes =
+        planes_of(frame, corners, i, constant(kLargeRun), constant(kBlockSide), hn::Load(d, side + i));
     for (int k = 0; k < 4; ++k) {
       const Vec& plane = k < 3 ? planes.edge[k] : planes.w;
       hn::Store(plane.x, d, values[3 * k] + i);

@@ -28,14 +28,14 @@ struct PlaneFrame {
 struct alignas(64) FaceBlock {
   float A[3][kBlockFaces], B[3][kBlockFaces], C[3][kBlockFaces];
   float Aw[kBlockFaces], Bw[kBlockFaces], Cw[kBlockFaces];
-  float sharp[kBlockFaces];  ///< a w not below it is sharp
+  float sharp[kBlockFaces];  ///< a w not below it is sharp; above 0
   /// Faces nearly edge-on, whose side doubles cannot tell; as drawn they cover nothing.
   std::uint8_t is_unsure[kBlockFaces];
   bool has_unsure;
 };
 
-/// The same in double for one large face, (u, v) counted from the picture's centre. The bounds hold for runs of at most
-/// kLargeRun samples of one row whose first value is rounded to float32.
+/// The same in double for one large face, (u, v) counted from the picture's centre. The bounds hold for kLargeRun
+/// columns of kBlockSide rows at a time, whose first value is rounded to float32.
 inline constexpr int kLargeRun = 64;
 struct LargeFace {
   double A[4], B[4], C[4];  ///< three edges, then w

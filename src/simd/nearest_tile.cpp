@@ -29,25 +29,16 @@ HWY_INLINE void draw_lanes(const FaceBlock& block, const FaceBoxes& boxes, std::
                            const RasterTarget& target) {
   const D d;
   const DI di;
-  alignas(64) std::int32_t first[kRoom] = {}, ids[kRoom] = {}, step_down[kRoom] = {};
-  alignas(64) float width[kRoom] = {}, height[kRoom];
-  std::fill(height, height + kRoom, -1.0f);
-  for (std::size_t i = 0; i < hn::Lanes(d) && from + i < boxes.count; ++i) {
-    const std::size_t k = from + i;
-    const auto columns = static_cast<std::int32_t>(target.columns);
-    first[i] = boxes.y0[k] * columns + boxes.x0[k];
-    ids[i] = static_cast<std::int32_t>(boxes.faces[k]);
-    width[i] = static_cast<float>(boxes.x1[k] - boxes.x0[k]);
-    height[i] = static_cast<float>(boxes.y1[k] - boxes.y0[k]);
-    step_down[i] = columns - (boxes.x1[k] - boxes.x0[k]);
-  }
+  const VI x0 = hn::LoadU(di, boxes.x0 + from), y0 = hn::LoadU(di, boxes.y0 + from);
+  const VI x1 = hn::LoadU(di, boxes.x1 + from), y1 = hn::LoadU(di, boxes.y1 + from);
+  const VI faces = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(boxes.faces) + from);
   const LanePlanes p = load(block, from);
-  const V one = hn::Set(d, 1), last_dx = hn::Load(d, width), last_dy = hn::Load(d, height);
-  const VI faces = hn::Load(di, ids), down = hn::Load(di, step_down), right = hn::Set(di, 1);
-  VI samples = hn::Load(di, first);
-  V dx = hn::Zero(d), dy = hn::Zero(d);
-  M live = hn::Le(dy, last_dy);
+  const V one = hn::Set(d, 1);
+  const VI step = hn::Set(di, 1);
+  VI column = x0, row = y0;
+  M live = hn::FirstN(d, std::min(hn::Lanes(d), boxes.count - from));
   while (!hn::AllFalse(d, live)) {
+    const VI samples = hn::Add(row_part(row, target.row_samples), column_part(column));
     const VI at = hn::IfThenElseZero(hn::RebindMask(di, live), samples);
     const V u = hn::GatherIndex(d, points.u, at), v = hn::GatherIndex(d, points.v, at);
     const V e = least_value(p, u, v);
@@ -56,12 +47,11 @@ HWY_INLINE void draw_lanes(const FaceBlock& block, const FaceBoxes& boxes, std::
       const V w = value(p.Aw, p.Bw, p.Cw, u, v);
       draw_scattered(target, near, hn::And(near, hn::Ge(e, one)), w, p.sharp, samples, faces);
     }
-    dx = hn::Add(dx, one);
-    const M at_end = hn::Gt(dx, last_dx);
-    dx = hn::IfThenZeroElse(at_end, dx);
-    dy = hn::IfThenElse(at_end, hn::Add(dy, one), dy);
-    samples = hn::Add(samples, hn::IfThenElse(hn::RebindMask(di, at_end), down, right));
-    live = hn::And(live, hn::Le(dy, last_dy));
+    column = hn::Add(column, step);
+    const auto at_end = hn::Gt(column, x1);
+    column = hn::IfThenElse(at_end, x0, column);
+    row = hn::IfThenElse(at_end, hn::Add(row, step), row);
+    live = hn::And(live, hn::RebindMask(d, hn::Not(hn::Gt(row, y1))));
   }
 }
 
@@ -101,22 +91,31 @@ void draw_tile_faces(const FaceBlock& block, const FaceBoxes& boxes, const TileP
   for (std::size_t i = 0; i < boxes.count; i += hn::Lanes(D())) draw_lanes(block, boxes, i, points, target);
 }
 
-void draw_tile_rows(const FaceBlock& block, const FaceBoxes& boxes, std::size_t k, const TilePoints& points,
+void draw_tile_face(const FaceBlock& block, const FaceBoxes& boxes, std::size_t k, const TilePoints& points,
                     const RasterTarget& target) {
   const D d;
   const LanePlanes p = broadcast(block, k);
-  const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
-  for (std::int32_t y = boxes.y0[k]; y <= boxes.y1[k]; ++y) {
-    for (std::int32_t x = boxes.x0[k]; x <= boxes.x1[k]; x += lanes) {
-      const std::uint32_t first = static_cast<std::uint32_t>(y) * target.columns + static_cast<std::uint32_t>(x);
-      const V u = hn::LoadU(d, points.u + first), v = hn::LoadU(d, points.v + first);
-      const V e = least_value(p, u, v);
-      const M live = hn::FirstN(d, static_cast<std::size_t>(std::min(lanes, boxes.x1[k] - x + 1)));
-      const M near = hn::And(live, hn::Ge(e, hn::Set(d, -1)));
-      if (hn::AllFalse(d, near)) continue;
-      const V w = value(p.Aw, p.Bw, p.Cw, u, v);
-      draw_neighbours(target, near, hn::And(near, hn::Ge(e, hn::Set(d, 1))), w, p.sharp, first, kBlockFaces,
-                      boxes.faces[k]);
+  const VI face = hn::Set(DI(), static_cast<std::int32_t>(boxes.faces[k]));
+  const auto number = [](std::int32_t x) HWY_ATTR { return hn::Set(D(), static_cast<float>(x)); };
+  const V left = number(boxes.x0[k]), right = number(boxes.x1[k]);
+  const V top = number(boxes.y0[k]), bottom = number(boxes.y1[k]);
+  constexpr std::int32_t kMask = ~(kBlockSide - 1);
+  for (std::int32_t y = boxes.y0[k] & kMask; y <= boxes.y1[k]; y += kBlockSide) {
+    for (std::size_t i = 0; i < kBlockSamples; i += hn::Lanes(d)) {
+      const V row = hn::Add(number(y), hn::Load(d, kRowsInBlock + i));
+      const M in_rows = hn::And(hn::Ge(row, top), hn::Le(row, bottom));
+      if (hn::AllFalse(d, in_rows)) continue;
+      for (std::int32_t x = boxes.x0[k] & kMask; x <= boxes.x1[k]; x += kBlockSide) {
+        const V column = hn::Add(number(x), hn::Load(d, kColumnsInBlock + i));
+        const std::uint32_t at = sample_at(target.row_samples, x, y) + static_cast<std::uint32_t>(i);
+        const V u = hn::Load(d, points.u + at), v = hn::Load(d, points.v + at);
+        const V e = least_value(p, u, v);
+        const M live = hn::And(in_rows, hn::And(hn::Ge(column, left), hn::Le(column, right)));
+        const M near = hn::And(live, hn::Ge(e, hn::Set(d, -1)));
+        if (hn::AllFalse(d, near)) continue;
+        const V w = value(p.Aw, p.Bw, p.Cw, u, v);
+        draw_in_block(target, near, hn::And(near, hn::Ge(e, hn::Set(d, 1))), w, p.sharp, at, face);
+      }
     }
   }
 }
@@ -167,9 +166,9 @@ void draw_tile_faces(const FaceBlock& block, const FaceBoxes& boxes, const TileP
   FACEMAP_DISPATCH(draw_tile_faces)(block, boxes, points, target);
 }
 
-void draw_tile_rows(const FaceBlock& block, const FaceBoxes& boxes, std::size_t k, const TilePoints& points,
+void draw_tile_face(const FaceBlock& block, const FaceBoxes& boxes, std::size_t k, const TilePoints& points,
                     const RasterTarget& target) {
-  FACEMAP_DISPATCH(draw_tile_rows)(block, boxes, k, points, target);
+  FACEMAP_DISPATCH(draw_tile_face)(block, boxes, k, points, target);
 }
 
 std::size_t find_tiles(const LargeFace& face, const TileCaps& caps, std::uint32_t* tiles) {

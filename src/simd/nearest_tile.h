@@ -8,7 +8,7 @@
 
 namespace facemap::simd {
 
-/// The directions of a tile's samples, row by row as in its raster: points (u, v) of the plane that a PlaneFrame
+/// The directions of a tile's samples, numbered as in its raster: points (u, v) of the plane that a PlaneFrame
 /// means, NaN where there is none.
 struct TilePoints {
   const float *u, *v;
@@ -24,9 +24,8 @@ double find_tile_points(const double axes[3][3], double per_radian, const float*
 void draw_tile_faces(const FaceBlock& block, const FaceBoxes& boxes, const TilePoints& points,
                      const RasterTarget& target);
 
-/// Draws face `k` of a block over its box, row by row. Arrays of the raster and the tile have room for kBlockFaces
-/// more.
-void draw_tile_rows(const FaceBlock& block, const FaceBoxes& boxes, std::size_t k, const TilePoints& points,
+/// Draws face `k` of a block over its box, neighbouring samples in lanes.
+void draw_tile_face(const FaceBlock& block, const FaceBoxes& boxes, std::size_t k, const TilePoints& points,
                     const RasterTarget& target);
 
 /// Caps that hold the directions of tiles: unit vectors of their centres and sines of their angular radii (less than
