@@ -11,11 +11,11 @@ FacingMasks::FacingMasks(const Scene& scene, const Vector& camera, const std::ve
     : scene_(scene), camera_(camera), lights_(lights) {}
 
 void FacingMasks::store(const FaceSlots& faces, const std::int64_t* slots, std::size_t count, std::uint8_t* masks) {
-  for (std::size_t byte = 0; byte < stride(); ++byte) {
+  const std::size_t bytes = stride();
+  const std::int32_t* facing = facing_;
+  for (std::size_t byte = 0; byte < bytes; ++byte) {
     find_facing(faces, byte);
-    for (std::size_t i = 0; i < count; ++i) {
-      masks[i * stride() + byte] = static_cast<std::uint8_t>(facing_[slots[i]]);
-    }
+    for (std::size_t i = 0; i < count; ++i) masks[i * bytes + byte] = static_cast<std::uint8_t>(facing[slots[i]]);
   }
 }
 

@@ -76,8 +76,13 @@ class PointFinder {
     for (std::size_t band = 0; band < bands(); ++band) starts_[band + 1] += starts_[band];
     const std::size_t count = starts_.back();
     AskedPoints& points = seen_.points;
-    for (auto* coordinates : {&points.x, &points.y, &points.z}) coordinates->resize(count);
-    for (auto* numbers : {&points.faces, &points.samples}) numbers->resize(count);
+    const auto pages = std::make_shared<SharedPages>(5 * SharedPages::room_for<std::uint32_t>(count));
+    for (auto* coordinates : {&points.x, &points.y, &points.z}) {
+      *coordinates = UnsetVector<std::int32_t>(count, UnsetAllocator<std::int32_t>(pages));
+    }
+    for (auto* numbers : {&points.faces, &points.samples}) {
+      *numbers = UnsetVector<std::uint32_t>(count, UnsetAllocator<std::uint32_t>(pages));
+    }
     seen_.masks.resize(count * seen_.stride);
   }
 
@@ -88,7 +93,8 @@ class PointFinder {
     executor_.for_each(bands(), [&](std::size_t band, int worker) {
       TileBatch& batch = work_[static_cast<std::size_t>(worker)]->batch;
       const int row = static_cast<int>(band) * TileBatch::kTile;
-      for (int column = 0; column < grid_.columns(); column += TileBatch::kTile) {
+      const int step = from_some ? TileBatch::kSparse : TileBatch::kTile;
+      for (int column = 0; column < grid_.columns(); column += step) {
         if (from_some) {
           batch.collect_some(column, row);
         } else {

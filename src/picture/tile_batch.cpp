@@ -4,11 +4,11 @@
 
 #include "map/face_planes.h"
 #include "math/exact_sign.h"
+#include "simd/seen_samples.h"
 
 namespace facemap {
 namespace {
 
-constexpr int kBlockColumns = 8, kBlockRows = 2;
 constexpr int kCell = 8;
 
 // splitmix64's mixing (Steele, Lea, Flood 2014).
@@ -26,20 +26,26 @@ TileBatch::TileBatch(const Scene& scene, const SampleGrid& grid, const NearestFa
 void TileBatch::collect(int column, int row) {
   rays_.count = 0;
   const int end_column = std::min(column + kTile, grid_.columns()), end_row = std::min(row + kTile, grid_.rows());
-  for (int left = column; left < end_column; left += kBlockColumns) {
-    for (int top = row; top < end_row; top += kBlockRows) {
-      for (int j = top; j < std::min(top + kBlockRows, end_row); ++j) {
-        add_run(j, left, std::min(left + kBlockColumns, end_column));
-      }
-    }
+  if ((end_column - column) % simd::kRunColumns == 0) {
+    const auto x = static_cast<std::size_t>(column), y = static_cast<std::size_t>(row), stride = table_.columns.size();
+    const std::size_t first = y * stride + x;
+    const simd::TileFaces tile = {nearest_.faces.data() + first, stride, static_cast<std::uint32_t>(first),
+                                  table_.columns.data() + x, table_.rows.data() + y};
+    rays_.count =
+        simd::list_samples(tile, end_column - column, end_row - row, {samples_, faces_, rays_.map_x, rays_.map_y});
+    return;
+  }
+  for (int left = column; left < end_column; left += simd::kRunColumns) {
+    for (int j = row; j < end_row; ++j) add_run(j, left, std::min(left + simd::kRunColumns, end_column));
   }
 }
 
 // The place in a cell varies, so that no pattern of the picture hides from it.
 void TileBatch::collect_some(int column, int row) {
   rays_.count = 0;
+  static_assert(kSparse / kCell * (kTile / kCell) <= simd::kSeenBatch);
   for (int top = row; top < row + kTile; top += kCell) {
-    for (int left = column; left < column + kTile; left += kCell) {
+    for (int left = column; left < std::min(column + kSparse, grid_.columns()); left += kCell) {
       const auto cell = static_cast<std::uint64_t>(top) << 32 | static_cast<std::uint64_t>(left);
       const int place = static_cast<int>(mixed(cell) % (kCell * kCell));
       const int i = left + place % kCell, j = top + place / kCell;

@@ -17,6 +17,7 @@ class TileBatch {
   /// Samples a side of a tile. In a tile samples stand block by block: neighbours in the picture stay neighbours.
   static constexpr int kTile = 16;
   static_assert(kTile * kTile == simd::kSeenBatch);
+  static constexpr int kSparse = kTile * 64;
 
   /// All must outlive it; `rays` are those of `grid`.
   TileBatch(const Scene& scene, const SampleGrid& grid, const NearestFaces& nearest, const RayTable& rays);
@@ -24,7 +25,7 @@ class TileBatch {
   /// Takes the tile whose first sample is at (column, row).
   void collect(int column, int row);
 
-  /// The same, at most one sample of every 8 x 8.
+  /// Takes at most one sample of every 8 x 8 of kSparse columns and kTile rows.
   void collect_some(int column, int row);
 
   /// Fills rays().offset with the points less `origin`, to within `allowed` (world units) and what meet_planes rounds.

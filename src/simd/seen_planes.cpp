@@ -43,6 +43,25 @@ HWY_INLINE void set_up_lanes(PlaneBatch& planes, const Three& K, std::size_t i) 
 
 }  // namespace
 
+void load_corners(const std::uint32_t* triangles, const float* positions, const std::uint32_t* faces,
+                  PlaneBatch& planes) {
+  const hn::ScalableTag<float> d;
+  const hn::RebindToSigned<decltype(d)> di;
+  const auto* indices = reinterpret_cast<const std::int32_t*>(triangles);
+  for (std::size_t i = 0; i < planes.count; i += hn::Lanes(d)) {
+    const auto used = hn::FirstN(di, planes.count - i);
+    const auto id = hn::IfThenElseZero(used, hn::LoadU(di, reinterpret_cast<const std::int32_t*>(faces) + i));
+    const auto triangle = hn::Add(id, hn::Add(id, id));
+    for (int corner = 0; corner < 3; ++corner) {
+      const auto vertex = hn::GatherIndex(di, indices + corner, triangle);
+      const auto position = hn::Add(vertex, hn::Add(vertex, vertex));
+      for (int axis = 0; axis < 3; ++axis) {
+        hn::StoreU(hn::GatherIndex(d, positions + axis, position), d, planes.corners[3 * corner + axis] + i);
+      }
+    }
+  }
+}
+
 void set_up_planes(PlaneBatch& planes, const float K[3]) {
   for (std::size_t i = 0; i < planes.count; i += hn::Lanes(D())) set_up_lanes(planes, point(K), i);
 }
@@ -118,6 +137,11 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace facemap::simd {
+
+void load_corners(const std::uint32_t* triangles, const float* positions, const std::uint32_t* faces,
+                  PlaneBatch& planes) {
+  FACEMAP_DISPATCH(load_corners)(triangles, positions, faces, planes);
+}
 
 void set_up_planes(PlaneBatch& planes, const float K[3]) { FACEMAP_DISPATCH(set_up_planes)(planes, K); }
 

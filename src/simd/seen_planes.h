@@ -26,6 +26,10 @@ struct PlaneBatch {
   double slope_error[kSeenBatch] = {};   ///< where |n . d| >= slope_error / e, a ray's point is known to within e
 };
 
+/// Fills the corners of planes.count faces, of three indices a triangle and three coordinates a vertex.
+void load_corners(const std::uint32_t* triangles, const float* positions, const std::uint32_t* faces,
+                  PlaneBatch& planes);
+
 /// Fills all but corners.
 void set_up_planes(PlaneBatch& planes, const float K[3]);
 
