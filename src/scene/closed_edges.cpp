@@ -40,9 +40,11 @@ class EdgeWindow {
     // Other bits of the product for each size: edges that share a slot in one stage seldom do in the next.
     Edge& slot = slots_[undirected(e) * 0x9E3779B97F4A7C15u << kShift >> (64 - kSlotBits)];
     const Edge seen = slot;
-    const bool cancels = seen == opposite(e);
-    slot = cancels ? kNone : e;
-    if (seen != kNone && !cancels) next_.push_back(seen);
+    // No branch: which edges meet their opposites is hard to predict.
+    const Edge stays = Edge{seen == opposite(e)} - 1;  // all bits or none
+    slot = e & stays;
+    if ((seen & stays) != kNone) [[unlikely]]
+      next_.push_back(seen);
   }
 
   void flush() {

@@ -20,7 +20,7 @@ constexpr std::size_t kLeastPiece = 1 << 15;  ///< faces worth a task of their o
 
 /// The vertices that faces connect.
 VertexSets connected_vertices(const Scene& scene, const Executor& executor) {
-  VertexSets sets(scene.mesh().positions.size());
+  VertexSets sets(scene.mesh().positions.size(), executor.threads() > 1);
   for_ranges(executor, scene.face_count(), kLeastPiece, [&](std::size_t first, std::size_t last, int) {
     for (std::size_t face = first; face != last; ++face) {
       const Corners c = welded_corners(scene.mesh().triangles[face], scene.welded());

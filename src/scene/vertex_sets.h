@@ -14,7 +14,8 @@ namespace facemap {
 /// least vertex, whatever the order. (Union-find with path halving; a root is hung below a lesser one.)
 class VertexSets {
  public:
-  explicit VertexSets(std::size_t count) : parents_(count) {
+  /// Unless `is_shared` one thread alone joins.
+  VertexSets(std::size_t count, bool is_shared) : is_shared_(is_shared), parents_(count) {
     for (std::size_t i = 0; i < count; ++i) parents_[i] = static_cast<std::uint32_t>(i);
   }
 
@@ -25,6 +26,10 @@ class VertexSets {
       b = find(b);
       if (a == b) return;
       if (a < b) std::swap(a, b);
+      if (!is_shared_) {
+        parents_[a] = b;
+        return;
+      }
       std::uint32_t expected = a;  // still a root?
       if (cell(a).compare_exchange_strong(expected, b, std::memory_order_relaxed)) return;
     }
@@ -61,6 +66,7 @@ class VertexSets {
     }
   }
 
+  bool is_shared_;
   std::vector<std::uint32_t> parents_;  ///< a root is its own; never greater than the vertex
 };
 
