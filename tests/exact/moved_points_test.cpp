@@ -144,10 +144,17 @@ void add_normals(Mesh& mesh, Random& random) {
   }
 }
 
-Image picture(const Scene& scene, const View& view, const std::vector<Light>& lights, Renderer::Options options,
-              Renderer::Strategy strategy) {
+// From some views, with what a renderer keeps from one to the next.
+std::vector<Image> pictures(const Scene& scene, const std::vector<View>& views, const std::vector<Light>& lights,
+                            Renderer::Options options, Renderer::Strategy strategy) {
   options.strategy = strategy;
-  return Renderer(scene, view, lights, options).render();
+  Renderer renderer(scene, views[0], lights, options);
+  std::vector<Image> images;
+  for (const View& view : views) {
+    renderer.set_view(view);
+    images.push_back(renderer.render());
+  }
+  return images;
 }
 
 TEST(MovedPoints, PicturesOfSolidsAreThoseOfTheLists) {
@@ -162,24 +169,29 @@ TEST(MovedPoints, PicturesOfSolidsAreThoseOfTheLists) {
     if (scene.kept_faces().empty()) continue;
     View view;
     view.look_at = Vector(scene.centre());
-    view.position = Vector(scene.centre() + random.direction() * (random.between(0.5, 3.0) * scene.bounding_radius()));
     view.up = Vector(random.direction());
     view.field_angle = random.between(0.1, 2.0);
     view.projection = random.chance(0.5) ? ProjectionKind::Plane : ProjectionKind::Surface;
+    std::vector<View> views(3, view);
+    for (View& v : views) {
+      v.position = Vector(scene.centre() + random.direction() * (random.between(0.5, 3.0) * scene.bounding_radius()));
+    }
     std::vector<Light> lights(static_cast<std::size_t>(random.between(1, 10)));
     for (Light& light : lights) light.position = random_place(mesh, random, 3 * scene.bounding_radius());
     Renderer::Options options;
     options.width = options.height = random.between(20, 60);
     options.threads = random.between(1, 3);
     options.want_lights = random.chance(0.7);
-    const Image transposed = picture(scene, view, lights, options, Renderer::Strategy::Transposed);
-    const Image by_lists = picture(scene, view, lights, options, Renderer::Strategy::Lists);
-    ASSERT_EQ(transposed.lights, by_lists.lights)
-        << test_queries::write_failure(mesh, test_queries::text(view.position));
-    ASSERT_EQ(std::memcmp(transposed.pixels.data(), by_lists.pixels.data(), by_lists.pixels.size() * sizeof(Color)), 0);
+    const auto transposed = pictures(scene, views, lights, options, Renderer::Strategy::Transposed);
+    const auto by_lists = pictures(scene, views, lights, options, Renderer::Strategy::Lists);
     options.shadow_terminator_fix = false;
-    const Image unlifted = picture(scene, view, lights, options, Renderer::Strategy::Lists);
-    for (std::size_t i = 0; i < unlifted.lights.size(); ++i) lifted += unlifted.lights[i] != by_lists.lights[i];
+    const auto unlifted = pictures(scene, views, lights, options, Renderer::Strategy::Lists);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      const Image &a = transposed[i], &b = by_lists[i];
+      ASSERT_EQ(a.lights, b.lights) << test_queries::write_failure(mesh, test_queries::text(views[i].position));
+      ASSERT_EQ(std::memcmp(a.pixels.data(), b.pixels.data(), b.pixels.size() * sizeof(Color)), 0);
+      for (std::size_t k = 0; k < b.lights.size(); ++k) lifted += unlifted[i].lights[k] != b.lights[k];
+    }
   }
   EXPECT_GT(lifted, 1000u);  // pixels whose lights depend on it
 }
