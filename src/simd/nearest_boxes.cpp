@@ -8,6 +8,7 @@
 #include <hwy/highway.h>
 
 #include "simd/dispatch.h"
+#include "simd/pack-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace facemap::simd::HWY_NAMESPACE {
@@ -106,15 +107,14 @@ HWY_INLINE Boxes boxes_of(const BoxRules& r, const Points& a, const Points& b, c
 }
 
 HWY_INLINE void push(BoxQueue& queue, M which, VU faces, const Boxes& box) {
-  const DI di;
-  const DU du;
-  const auto mask = hn::RebindMask(di, which);
+  const Packer<D> packer(which);
   const std::size_t n = queue.size;
-  hn::CompressStore(box.x0, mask, di, queue.x0 + n);
-  hn::CompressStore(box.x1, mask, di, queue.x1 + n);
-  hn::CompressStore(box.y0, mask, di, queue.y0 + n);
-  hn::CompressStore(box.y1, mask, di, queue.y1 + n);
-  queue.size += hn::CompressStore(faces, hn::RebindMask(du, which), du, queue.faces + n);
+  packer.store(box.x0, queue.x0 + n);
+  packer.store(box.x1, queue.x1 + n);
+  packer.store(box.y0, queue.y0 + n);
+  packer.store(box.y1, queue.y1 + n);
+  packer.store(faces, queue.faces + n);
+  queue.size += packer.count();
 }
 
 // In float32: areas of boxes may exceed integers, and need not be sharp.

@@ -14,6 +14,8 @@
 
 #include <hwy/highway.h>
 
+#include "simd/pack-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace facemap::simd::HWY_NAMESPACE {
 namespace {
@@ -112,14 +114,14 @@ HWY_INLINE void draw_fragments(const RasterTarget& target) {
 // Fragments of different faces, in any samples: `near` lanes are not surely outside, `inside` ones surely inside.
 HWY_INLINE void draw_scattered(const RasterTarget& target, M near, M inside, V w, V sharp, VI samples, VI faces) {
   const D d;
-  const DI di;
   const M sure = hn::And(inside, hn::Ge(w, sharp));
   Fragments& f = *target.fragments;
   const std::size_t n = f.count;
-  hn::StoreU(hn::Compress(w, sure), d, f.w + n);
-  hn::StoreU(hn::Compress(faces, hn::RebindMask(di, sure)), di, f.faces + n);
-  hn::StoreU(hn::Compress(samples, hn::RebindMask(di, sure)), di, f.samples + n);
-  f.count = n + hn::CountTrue(d, sure);
+  const Packer<D> packer(sure);
+  packer.store(w, f.w + n);
+  packer.store(faces, f.faces + n);
+  packer.store(samples, f.samples + n);
+  f.count = n + packer.count();
   if (f.count > Fragments::kRoom - kRoom) draw_fragments(target);
   const M unsure = hn::AndNot(sure, near);
   if (!hn::AllFalse(d, unsure)) draw_unsure_lanes(target, unsure, inside, w, sharp, samples, faces);

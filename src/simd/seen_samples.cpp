@@ -8,6 +8,7 @@
 #include <hwy/highway.h>
 
 #include "simd/dispatch.h"
+#include "simd/pack-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace facemap::simd::HWY_NAMESPACE {
@@ -30,15 +31,14 @@ HWY_INLINE std::size_t list_run(const TileFaces& tile, std::size_t column, std::
     const auto faces = hn::LoadU(di, tile.faces + first + i);
     const auto seen = hn::Gt(faces, hn::Set(di, -1));
     if (hn::AllFalse(di, seen)) continue;
-    const auto seen_too = hn::RebindMask(du, seen);
     const auto in_tile = hn::Add(hn::Load(du, kCounted + i), hn::Set(du, static_cast<std::uint32_t>(column)));
     const auto number = tile.first_sample + static_cast<std::uint32_t>(row * tile.stride);
-    hn::StoreU(hn::Compress(hn::Add(in_tile, hn::Set(du, number)), seen_too), du, lists.samples + count);
-    hn::StoreU(hn::Compress(hn::BitCast(du, faces), seen_too), du, lists.faces + count);
-    hn::StoreU(hn::Compress(in_tile, seen_too), du, columns + count);
-    const std::size_t found = hn::CountTrue(di, seen);
+    const Packer<DU> packer(hn::RebindMask(du, seen));
+    packer.store(hn::Add(in_tile, hn::Set(du, number)), lists.samples + count);
+    packer.store(hn::BitCast(du, faces), lists.faces + count);
+    packer.store(in_tile, columns + count);
     for (std::size_t k = 0; k < hn::Lanes(di); ++k) lists.map_y[count + k] = tile.map_y[row];
-    count += found;
+    count += packer.count();
   }
   return count;
 }
