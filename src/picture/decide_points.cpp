@@ -1,5 +1,6 @@
 #include "picture/decide_points.h"
 
+#include <algorithm>
 #include <mutex>
 
 #include "math/dvector.h"
@@ -10,6 +11,9 @@ namespace {
 
 // What the kernel reaches past the end.
 constexpr std::size_t kPadding = 64;
+
+// So many points are looked at before those that are left open are copied: they are still near in memory.
+constexpr std::size_t kSlice = 1 << 13;
 
 template <class Vector>
 std::size_t bytes_of(const Vector& v) {
@@ -39,13 +43,11 @@ void clear_dark(const std::uint8_t* dark, std::size_t count, const MaskBit& mask
   }
 }
 
-void take(const AskedPoints& points, const std::uint32_t* numbers, std::size_t count, AskedPoints& some) {
-  some.origin = points.origin;
-  some.step = points.step;
-  some.error = points.error;
-  for (auto* coordinates : {&some.x, &some.y, &some.z}) coordinates->resize(count);
-  some.faces.resize(count);
-  for (std::size_t k = 0; k < count; ++k) {
+// Copies the points of numbers first.. to the end of `some`.
+void take(const AskedPoints& points, const std::vector<std::uint32_t>& numbers, std::size_t first, AskedPoints& some) {
+  for (auto* coordinates : {&some.x, &some.y, &some.z}) coordinates->resize(numbers.size());
+  some.faces.resize(numbers.size());
+  for (std::size_t k = first; k < numbers.size(); ++k) {
     const std::uint32_t i = numbers[k];
     some.x[k] = points.x[i];
     some.y[k] = points.y[i];
@@ -61,24 +63,32 @@ std::size_t DecidedPoints::memory_bytes() const noexcept {
          bytes_of(open.faces);
 }
 
-std::size_t decide_points(const LightBounds& bounds, const Vector& light, const AskedPoints& points,
-                          const MaskBit& mask, DecidedPoints& work, Counters& counters) {
+void decide_points(const LightBounds& bounds, const Vector& light, const AskedPoints& points, const MaskBit& mask,
+                   DecidedPoints& work, Counters& counters) {
   const std::size_t count = points.size();
   work.dark.resize(count + kPadding);
-  work.numbers.resize(count + kPadding);
+  work.numbers.clear();
+  work.open.origin = points.origin;
+  work.open.step = points.step;
+  work.open.error = points.error;
   // No offset is longer: coordinates have 32 bits.
   const DVector from_light = points.origin - DVector(light);
   const double size = 3 * points.step * 0x1p31 + 3 * length(from_light);
   const auto from = PointProjection(points, light, size)
                         .onto(bounds.frame(), simd::kShadowGreatestSlack, asked_bytes(mask, count, work.asked),
                               static_cast<std::uint8_t>(1u << (mask.bit % 8)));
-  const auto counts = simd::decide_points(from, bounds.texels(), work.dark.data(), work.numbers.data());
-  counters.by_float += counts.asked - counts.open;
-  take(points, work.numbers.data(), counts.open, work.open);
+  for (std::size_t first = 0; first < count; first += kSlice) {
+    const std::size_t last = std::min(first + kSlice, count), before = work.numbers.size();
+    work.numbers.resize(before + (last - first) + kPadding);
+    const auto counts =
+        simd::decide_points(from, bounds.texels(), first, last, work.dark.data(), &work.numbers[before]);
+    counters.by_float += counts.asked - counts.open;
+    work.numbers.resize(before + counts.open);
+    take(points, work.numbers, before, work.open);
+  }
   const std::unique_lock lock =
       mask.writing != nullptr ? std::unique_lock(*mask.writing) : std::unique_lock<std::mutex>();
   clear_dark(work.dark.data(), count, mask);
-  return counts.open;
 }
 
 }  // namespace facemap

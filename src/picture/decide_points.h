@@ -16,16 +16,15 @@ namespace facemap {
 struct DecidedPoints {
   std::vector<std::uint8_t> asked;     ///< of a mask of several bytes a point, the one byte
   UnsetVector<std::uint8_t> dark;      ///< one a point: 1 where it is
-  UnsetVector<std::uint32_t> numbers;  ///< room for those that are open
-  AskedPoints open;
+  std::vector<std::uint32_t> numbers;  ///< of the points that are open, ascending
+  AskedPoints open;                    ///< those points, but for their samples
 
   std::size_t memory_bytes() const noexcept;
 };
 
 /// For points whose bit is set in mask.asked: clears it in mask.lit where the light's bounds say that the point is
-/// dark. Leaves in `work` the points about which they say nothing: open, the first `count` of numbers, which it
-/// returns.
-std::size_t decide_points(const LightBounds& bounds, const Vector& light, const AskedPoints& points,
-                          const MaskBit& mask, DecidedPoints& work, Counters& counters);
+/// dark. Leaves in `work` the points about which they say nothing.
+void decide_points(const LightBounds& bounds, const Vector& light, const AskedPoints& points, const MaskBit& mask,
+                   DecidedPoints& work, Counters& counters);
 
 }  // namespace facemap

@@ -17,6 +17,9 @@ constexpr int kLeastSize = 64, kMostSize = 512;  // texels a side
 // A raster has about so many texels a face.
 constexpr std::size_t kTexelsPerFace = 2;
 
+// Faces are listed if they are at most this share of all: a list costs memory and order.
+constexpr double kWorthListing = 0.7;
+
 // Coordinates of vertices on the raster are within this, or the bounds of FaceTexels would not hold.
 constexpr float kFarthestPlace = 1.25f;
 
@@ -32,62 +35,124 @@ bool is_on_raster(const float* place) {
   return place[2] > 0 && std::fabs(place[0]) <= kFarthestPlace && std::fabs(place[1]) <= kFarthestPlace;
 }
 
+// The kept faces, as offsets from the light.
+OffsetBox box_of_faces(const Scene& scene, const Vector& light) {
+  OffsetBox box{DVector(HUGE_VAL), DVector(-HUGE_VAL)};
+  for (const std::uint32_t face : scene.kept_faces()) {
+    for (int k = 0; k < 3; ++k) {
+      const DVector offset = DVector(scene.mesh().vertex(face, k)) - DVector(light);
+      for (int axis = 0; axis < 3; ++axis) {
+        box.lower[axis] = std::min(box.lower[axis], offset[axis]);
+        box.upper[axis] = std::max(box.upper[axis], offset[axis]);
+      }
+    }
+  }
+  return box;
+}
+
 }  // namespace
+
+class LightBounds::Finder {
+ public:
+  Finder(const Scene& scene, const std::uint8_t* skip_entries, const simd::ShadowFrame& frame, LightBounds& bounds)
+      : scene_(scene), skip_entries_(skip_entries), bounds_(bounds), places_(3 * (scene.mesh().positions.size() + 16)) {
+    const std::vector<Vector>& positions = scene.mesh().positions;
+    simd::project_vertices(frame, &positions[0].x, positions.size(), places_.data());
+    bounds_.frame_ = frame;
+    bounds_.size_ = size_for(scene.kept_faces().size());
+  }
+
+  bool find(const std::vector<FaceNeighbours>& neighbours) {
+    if (!find_scale()) return false;
+    const std::vector<float> lit = find_lit();
+    encode(lit, find_dark(scene_, neighbours, places_, bounds_.size_));
+    find_faces();
+    return true;
+  }
+
+ private:
+  const float* place(std::uint32_t face, std::size_t k) const {
+    return places_.data() + 3 * std::size_t{scene_.mesh().triangles[face][k]};
+  }
+
+  // Of the faces that may have to be asked.
+  template <class Visit>
+  void for_each_face(const Visit& visit) const {
+    for (const std::uint32_t face : scene_.kept_faces()) {
+      const FaceTexels texels(place(face, 0), place(face, 1), place(face, 2), bounds_.size_);
+      if (texels.side() < 0 && skip_entries_ != nullptr && skip_entries_[face] != 0) continue;
+      visit(face, texels);
+    }
+  }
+
+  // False if some face is where FaceTexels can't tell its texels.
+  bool find_scale() {
+    float least = std::numeric_limits<float>::infinity(), greatest = 0;
+    for (const std::uint32_t face : scene_.kept_faces()) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!is_on_raster(place(face, k))) return false;
+        least = std::min(least, place(face, k)[2]);
+        greatest = std::max(greatest, place(face, k)[2]);
+      }
+    }
+    bounds_.w_least_ = least;
+    // The last step is for points in front of all faces.
+    bounds_.w_scale_ =
+        (simd::TexelBounds::kSteps - 1) / (greatest * (simd::kShadowDepthFactor * simd::kShadowDepthFactor) - least);
+    return true;
+  }
+
+  std::vector<float> find_lit() const {
+    std::vector<float> lit(static_cast<std::size_t>(bounds_.size_) * static_cast<std::size_t>(bounds_.size_), 0.0f);
+    for_each_face([&](std::uint32_t, const FaceTexels& texels) {
+      texels.for_each(
+          [&](const FaceTexels::Piece& piece) { lit[piece.texel] = std::max(lit[piece.texel], piece.greatest); });
+    });
+    return lit;
+  }
+
+  // Monotone in w, however it is rounded: of two numbers that differ it is known which w is greater.
+  float number(float w) const {
+    return std::clamp((w - bounds_.w_least_) * bounds_.w_scale_, 0.0f, simd::TexelBounds::kSteps);
+  }
+
+  void encode(const std::vector<float>& lit, const std::vector<float>& dark) {
+    bounds_.texels_.resize(lit.size());
+    for (std::size_t t = 0; t < lit.size(); ++t) {
+      const auto upper = lit[t] > 0 ? std::max(static_cast<std::uint32_t>(std::ceil(number(lit[t]))), 1u) : 0u;
+      const auto lower = dark[t] > 0 ? static_cast<std::uint32_t>(std::floor(number(dark[t]))) : 0u;
+      bounds_.texels_[t] = upper << 16 | lower;
+    }
+  }
+
+  // Leaves out faces that in each of their texels are behind what is dark: a point that such a face blocks is dark.
+  void find_faces() {
+    std::vector<std::uint32_t> faces;
+    for_each_face([&](std::uint32_t face, const FaceTexels& texels) {
+      bool is_needed = false;
+      texels.for_each([&](const FaceTexels::Piece& piece) {
+        is_needed = is_needed || number(piece.greatest) >= static_cast<float>(bounds_.texels_[piece.texel] & 0xffff);
+      });
+      if (is_needed) faces.push_back(face);
+    });
+    bounds_.has_faces_ = static_cast<double>(faces.size()) < kWorthListing * static_cast<double>(scene_.face_count());
+    if (bounds_.has_faces_) bounds_.faces_.assign(faces.begin(), faces.end());
+  }
+
+  const Scene& scene_;
+  const std::uint8_t* skip_entries_;
+  LightBounds& bounds_;
+  std::vector<float> places_;  // of the vertices
+};
 
 std::optional<LightBounds> LightBounds::find(const Scene& scene, const Vector& light, const std::uint8_t* skip_entries,
                                              const std::vector<FaceNeighbours>& neighbours) {
   if (scene.kept_faces().empty()) return {};
-  const Mesh& mesh = scene.mesh();
-  DVector lower(HUGE_VAL), upper(-HUGE_VAL);
-  for (const std::uint32_t face : scene.kept_faces()) {
-    for (int k = 0; k < 3; ++k) {
-      const DVector offset = DVector(mesh.vertex(face, k)) - DVector(light);
-      for (int axis = 0; axis < 3; ++axis) {
-        lower[axis] = std::min(lower[axis], offset[axis]);
-        upper[axis] = std::max(upper[axis], offset[axis]);
-      }
-    }
-  }
-  const auto frame = frame_towards(light, {lower, upper}, 0);
+  const auto frame = frame_towards(light, box_of_faces(scene, light), 0);
   if (!frame) return {};
-  std::vector<float> places(3 * (mesh.positions.size() + 16));
-  simd::project_vertices(*frame, &mesh.positions[0].x, mesh.positions.size(), places.data());
-
   LightBounds bounds;
-  bounds.frame_ = *frame;
-  bounds.size_ = size_for(scene.kept_faces().size());
-  std::vector<float> lit(static_cast<std::size_t>(bounds.size_) * static_cast<std::size_t>(bounds.size_), 0.0f);
-  float least = std::numeric_limits<float>::infinity(), greatest = 0;
-  for (const std::uint32_t face : scene.kept_faces()) {
-    const float* corners[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-      corners[k] = places.data() + 3 * std::size_t{mesh.triangles[face][k]};
-      if (!is_on_raster(corners[k])) return {};
-      least = std::min(least, corners[k][2]);
-      greatest = std::max(greatest, corners[k][2]);
-    }
-    const FaceTexels texels(corners[0], corners[1], corners[2], bounds.size_);
-    if (texels.side() < 0 && skip_entries != nullptr && skip_entries[face] != 0) continue;
-    texels.for_each(
-        [&](const FaceTexels::Piece& piece) { lit[piece.texel] = std::max(lit[piece.texel], piece.greatest); });
-  }
-  bounds.encode(lit, find_dark(scene, neighbours, places, bounds.size_), least, greatest);
+  if (!Finder(scene, skip_entries, *frame, bounds).find(neighbours)) return {};
   return bounds;
-}
-
-// A number is monotone in w, however it is rounded: of two that differ it is known which w is greater.
-void LightBounds::encode(const std::vector<float>& lit, const std::vector<float>& dark, float least, float greatest) {
-  w_least_ = least;
-  // The last step is for points in front of all faces.
-  w_scale_ =
-      (simd::TexelBounds::kSteps - 1) / (greatest * (simd::kShadowDepthFactor * simd::kShadowDepthFactor) - least);
-  const auto number = [&](float w) { return std::clamp((w - w_least_) * w_scale_, 0.0f, simd::TexelBounds::kSteps); };
-  texels_.resize(lit.size());
-  for (std::size_t t = 0; t < lit.size(); ++t) {
-    const auto upper = lit[t] > 0 ? std::max(static_cast<std::uint32_t>(std::ceil(number(lit[t]))), 1u) : 0u;
-    const auto lower = dark[t] > 0 ? static_cast<std::uint32_t>(std::floor(number(dark[t]))) : 0u;
-    texels_[t] = upper << 16 | lower;
-  }
 }
 
 }  // namespace facemap

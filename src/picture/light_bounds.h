@@ -26,16 +26,22 @@ class LightBounds {
 
   const simd::ShadowFrame& frame() const noexcept { return frame_; }
   simd::TexelBounds texels() const noexcept { return {texels_.data(), size_, w_least_, w_scale_}; }
-  std::size_t memory_bytes() const noexcept { return sizeof(*this) + texels_.capacity() * sizeof(texels_[0]); }
+  /// The only faces that may stand between the light and a point that is not decided, ascending; or null: any may.
+  const std::vector<std::uint32_t>* faces() const noexcept { return has_faces_ ? &faces_ : nullptr; }
+  std::size_t memory_bytes() const noexcept {
+    return sizeof(*this) + texels_.capacity() * sizeof(texels_[0]) + faces_.capacity() * sizeof(faces_[0]);
+  }
 
  private:
+  class Finder;
   LightBounds() = default;
-  void encode(const std::vector<float>& lit, const std::vector<float>& dark, float least, float greatest);
 
   simd::ShadowFrame frame_{};
   int size_ = 0;
   float w_least_ = 0, w_scale_ = 0;
   std::vector<std::uint32_t> texels_;
+  bool has_faces_ = false;
+  std::vector<std::uint32_t> faces_;
 };
 
 }  // namespace facemap

@@ -75,54 +75,54 @@ void clear_blocked(const LightWork& work, const SampleGrid& grid, const MovedPoi
   std::vector<std::uint8_t> outside_camera;
   if (work.closed != nullptr) outside_camera = work.closed->outside(scene, grid.frame.position());
 
-  for_each_light(work, seen.stride, seen.masks, counters,
-                 [&](std::size_t l, const MaskBit& mask, int worker, Counters& own) {
-                   const Vector& light = work.lights[l];
-                   ShadowScratch& scratch = work.scratch[static_cast<std::size_t>(worker)];
-                   FacePairs pairs(scene);
-                   const BlocksExactly is_between = [&](std::size_t point, std::uint32_t face, int face_side) {
-                     if (points.faces[point] == kNoOwnFace) {
-                       const GivenPoint given{moved.position_of(static_cast<std::uint32_t>(point))};
-                       return blocks(triangle_of(scene, face), face_side, light, given, &own);
-                     }
-                     if (pairs.is_clear(points.faces[point], face, face_side, own)) return false;
-                     return blocks(triangle_of(scene, face), face_side, light,
-                                   true_point(scene, grid, points.samples[point], points.faces[point]), &own);
-                   };
-                   // Some of the points, which are still lit.
-                   const auto ask_some = [&](const AskedPoints& some, const std::uint32_t* numbers,
-                                             const std::uint8_t* skip_entries) {
-                     std::vector<std::uint8_t> lit(some.size(), 1);
-                     clear_blocked(
-                         scene, light, some, {lit.data(), lit.data(), 1, 0}, skip_entries,
-                         [&](std::size_t point, std::uint32_t face, int face_side) {
-                           return is_between(numbers[point], face, face_side);
-                         },
-                         scratch, &own);
-                     const std::scoped_lock lock(*mask.writing);
-                     const auto bit = static_cast<std::uint8_t>(1u << (mask.bit % 8));
-                     for (std::size_t k = 0; k < lit.size(); ++k) {
-                       if (lit[k] == 0) byte_of(mask, numbers[k]) &= static_cast<std::uint8_t>(~bit);
-                     }
-                   };
+  for_each_light(
+      work, seen.stride, seen.masks, counters, [&](std::size_t l, const MaskBit& mask, int worker, Counters& own) {
+        const Vector& light = work.lights[l];
+        ShadowScratch& scratch = work.scratch[static_cast<std::size_t>(worker)];
+        FacePairs pairs(scene);
+        const BlocksExactly is_between = [&](std::size_t point, std::uint32_t face, int face_side) {
+          if (points.faces[point] == kNoOwnFace) {
+            const GivenPoint given{moved.position_of(static_cast<std::uint32_t>(point))};
+            return blocks(triangle_of(scene, face), face_side, light, given, &own);
+          }
+          if (pairs.is_clear(points.faces[point], face, face_side, own)) return false;
+          return blocks(triangle_of(scene, face), face_side, light,
+                        true_point(scene, grid, points.samples[point], points.faces[point]), &own);
+        };
+        // Some of the points, which are still lit.
+        const auto ask_some = [&](const AskedPoints& some, const std::uint32_t* numbers,
+                                  const std::uint8_t* skip_entries, const std::vector<std::uint32_t>* some_faces) {
+          std::vector<std::uint8_t> lit(some.size(), 1);
+          clear_blocked(
+              scene, light, some, {lit.data(), lit.data(), 1, 0}, skip_entries,
+              [&](std::size_t point, std::uint32_t face, int face_side) {
+                return is_between(numbers[point], face, face_side);
+              },
+              scratch, &own, some_faces);
+          const std::scoped_lock lock(*mask.writing);
+          const auto bit = static_cast<std::uint8_t>(1u << (mask.bit % 8));
+          for (std::size_t k = 0; k < lit.size(); ++k) {
+            if (lit[k] == 0) byte_of(mask, numbers[k]) &= static_cast<std::uint8_t>(~bit);
+          }
+        };
 
-                   std::vector<std::uint8_t> skippable;
-                   if (work.closed != nullptr) skippable = work.closed->skippable_entries(scene, outside_camera, light);
-                   const std::uint8_t* skip_entries = skippable.empty() ? nullptr : skippable.data();
-                   const LightBounds* bounds = work.bounds != nullptr ? work.bounds->of(l, outside_camera) : nullptr;
-                   if (bounds != nullptr) {
-                     DecidedPoints& decided = work.bounds->work(worker);
-                     decide_points(*bounds, light, points, mask, decided, own);
-                     ask_some(decided.open, decided.numbers.data(), skip_entries);
-                   } else {
-                     clear_blocked(scene, light, points, mask, skip_entries, is_between, scratch, &own);
-                   }
-                   if (skip_entries == nullptr) return;
-                   // Exit faces speak for a closed part only at points strictly inside their face: the others ask all
-                   // faces.
-                   const std::vector<std::uint32_t> numbers = still_lit(seen.loose, mask);
-                   if (!numbers.empty()) ask_some(subset(points, numbers), numbers.data(), nullptr);
-                 });
+        std::vector<std::uint8_t> skippable;
+        if (work.closed != nullptr) skippable = work.closed->skippable_entries(scene, outside_camera, light);
+        const std::uint8_t* skip_entries = skippable.empty() ? nullptr : skippable.data();
+        const LightBounds* bounds = work.bounds != nullptr ? work.bounds->of(l, outside_camera) : nullptr;
+        if (bounds != nullptr) {
+          DecidedPoints& decided = work.bounds->work(worker);
+          decide_points(*bounds, light, points, mask, decided, own);
+          ask_some(decided.open, decided.numbers.data(), skip_entries, bounds->faces());
+        } else {
+          clear_blocked(scene, light, points, mask, skip_entries, is_between, scratch, &own);
+        }
+        if (skip_entries == nullptr) return;
+        // Exit faces speak for a closed part only at points strictly inside their face: the others ask all
+        // faces.
+        const std::vector<std::uint32_t> numbers = still_lit(seen.loose, mask);
+        if (!numbers.empty()) ask_some(subset(points, numbers), numbers.data(), nullptr, nullptr);
+      });
 }
 
 void clear_blocked_by_lists(const std::vector<PointLight>& lists, const Scene& scene, const SampleGrid& grid,

@@ -82,11 +82,10 @@ void ShadowFaces::run(const ShadowRun& run, ShadowPoints& points, Counters& coun
 
   queue_.count = 0;
   undecided_.clear();
-  for (std::size_t first = 0; first < mesh.face_count(); first += kShadowFaces) {
-    const std::size_t last = std::min(first + kShadowFaces, mesh.face_count()), waiting = queue_.count;
-    simd::sift_faces({mesh.triangles[0].data(), places_.data(), run.skip_entries, first, last, points.raster(),
-                      &points.farthest(), points.occupied()},
-                     queue_);
+  const std::size_t count = run.some != nullptr ? run.some->size() : mesh.face_count();
+  for (std::size_t first = 0; first < count; first += kShadowFaces) {
+    const std::size_t waiting = queue_.count;
+    sift(run, points, first, std::min(first + kShadowFaces, count));
     queue_across(run, points.raster());
     if (has_odd_faces) drop_odd_faces(run.scene, waiting);
     test_first(run, points, queue_.count / kGroup * kGroup, counters);
@@ -94,6 +93,28 @@ void ShadowFaces::run(const ShadowRun& run, ShadowPoints& points, Counters& coun
   }
   test_first(run, points, queue_.count, counters);
   resolve(run, points);
+}
+
+// Of faces first..last-1, or of those places in run.some.
+void ShadowFaces::sift(const ShadowRun& run, const ShadowPoints& points, std::size_t first, std::size_t last) {
+  const Mesh& mesh = run.scene.mesh();
+  simd::FacesToSift faces{mesh.triangles[0].data(), places_.data(),     run.skip_entries, first, last,
+                          points.raster(),          &points.farthest(), points.occupied()};
+  if (run.some == nullptr) return simd::sift_faces(faces, queue_);
+  const std::uint32_t* numbers = run.some->data() + first;
+  corners_of_some_.resize(3 * kShadowFaces);
+  for (std::size_t i = 0; i < last - first; ++i) {
+    const Corners& corners = mesh.triangles[numbers[i]];
+    std::copy(corners.begin(), corners.end(), corners_of_some_.begin() + static_cast<std::ptrdiff_t>(3 * i));
+  }
+  faces.corners = corners_of_some_.data();
+  faces.skip_entries = nullptr;  // settle_sides has those that matter all the same
+  faces.first = 0;
+  faces.last = last - first;
+  const std::size_t waiting = queue_.count;
+  simd::sift_faces(faces, queue_);
+  for (std::size_t i = waiting; i < queue_.count; ++i) queue_.face[i] = numbers[queue_.face[i]];
+  for (std::size_t i = 0; i < queue_.across_count; ++i) queue_.across[i] = numbers[queue_.across[i]];
 }
 
 void ShadowFaces::drop_odd_faces(const Scene& scene, std::size_t first) {
@@ -200,7 +221,7 @@ void ShadowFaces::resolve(const ShadowRun& run, ShadowPoints& points) {
 
 std::size_t ShadowFaces::memory_bytes() const noexcept {
   return sizeof(*this) + bytes_of(places_) + bytes_of(corners_) + bytes_of(planes_) + bytes_of(sides_) +
-         bytes_of(jobs_) + bytes_of(undecided_);
+         bytes_of(corners_of_some_) + bytes_of(jobs_) + bytes_of(undecided_);
 }
 
 }  // namespace facemap

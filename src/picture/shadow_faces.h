@@ -17,6 +17,7 @@ struct ShadowRun {
   const simd::ShadowFrame& frame;
   double slack;  ///< of set_up_planes
   const std::uint8_t* skip_entries;
+  const std::vector<std::uint32_t>* some;  ///< the only faces that matter, or null
   const BlocksExactly& blocks_exactly;
 };
 
@@ -29,14 +30,16 @@ class ShadowFaces {
   std::size_t memory_bytes() const noexcept;
 
  private:
+  void sift(const ShadowRun& run, const ShadowPoints& points, std::size_t first, std::size_t last);
   void drop_odd_faces(const Scene& scene, std::size_t first);
   void queue_across(const ShadowRun& run, const simd::ShadowRaster& raster);
   void test_first(const ShadowRun& run, ShadowPoints& points, std::size_t count, Counters& counters);
   void settle_sides(const ShadowRun& run, std::size_t count, Counters& counters);
   void resolve(const ShadowRun& run, ShadowPoints& points);
 
-  std::vector<float> places_;  ///< of vertices, three a vertex
-  simd::SiftedFaces queue_;    ///< faces to be tested
+  std::vector<float> places_;                   ///< of vertices, three a vertex
+  simd::SiftedFaces queue_;                     ///< faces to be tested
+  std::vector<std::uint32_t> corners_of_some_;  ///< three a face
   std::vector<simd::ShadowCorners> corners_;
   std::vector<simd::ShadowPlanes> planes_;
   std::vector<std::int8_t> sides_;

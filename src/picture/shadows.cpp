@@ -83,12 +83,14 @@ struct Side {
 class LightPass {
  public:
   LightPass(const Scene& scene, const Vector& light, const AskedPoints& points, const MaskBit& mask,
-            const std::uint8_t* skip_entries, const BlocksExactly& blocks_exactly, ShadowScratch::Parts& parts)
+            const std::uint8_t* skip_entries, const std::vector<std::uint32_t>* some,
+            const BlocksExactly& blocks_exactly, ShadowScratch::Parts& parts)
       : scene_(scene),
         light_(light),
         points_(points),
         mask_(mask),
         skip_entries_(skip_entries),
+        some_(some),
         blocks_exactly_(blocks_exactly),
         parts_(parts),
         from_light_(points.origin - DVector(light)) {}
@@ -173,7 +175,7 @@ class LightPass {
     parts_.points.sort(projection.onto(frame, slack, parts_.wanted.data(), bit), wanted, scene_.face_count(),
                        parts_.rest);
     if (parts_.points.count() > 0) {
-      parts_.faces.run({scene_, light_, frame, slack, skip_entries_, blocks_exactly_}, parts_.points, counters_);
+      parts_.faces.run({scene_, light_, frame, slack, skip_entries_, some_, blocks_exactly_}, parts_.points, counters_);
       clear_blocked_places();
     }
   }
@@ -214,6 +216,7 @@ class LightPass {
   const AskedPoints& points_;
   const MaskBit& mask_;
   const std::uint8_t* skip_entries_;
+  const std::vector<std::uint32_t>* some_;
   const BlocksExactly& blocks_exactly_;
   ShadowScratch::Parts& parts_;
   const DVector from_light_;  // to the points' origin
@@ -225,9 +228,9 @@ class LightPass {
 
 void clear_blocked(const Scene& scene, const Vector& light, const AskedPoints& points, const MaskBit& mask,
                    const std::uint8_t* skip_entries, const BlocksExactly& blocks_exactly, ShadowScratch& scratch,
-                   Counters* counters) {
+                   Counters* counters, const std::vector<std::uint32_t>* some) {
   const FloatingPointMode mode;
-  LightPass pass(scene, light, points, mask, skip_entries, blocks_exactly, scratch.parts());
+  LightPass pass(scene, light, points, mask, skip_entries, some, blocks_exactly, scratch.parts());
   pass.run();
   if (counters != nullptr) *counters += pass.counters();
 }

@@ -41,21 +41,23 @@ HWY_INLINE void decide_lanes(const PointsToProject& from, const TexelBounds& bou
   const auto is_lit = hn::And(is_on, hn::RebindMask(du, hn::Or(hn::Gt(number, upper), hn::Eq(upper, hn::Zero(d)))));
   const auto bytes = hn::IfThenElseZero(is_dark, hn::Set(du, 1));
   hn::StoreU(hn::DemoteTo(db, hn::BitCast(di, bytes)), db, dark + first + i);
+  const auto is_open = hn::AndNot(hn::Or(is_dark, is_lit), is_wanted);
+  if (hn::AllFalse(du, is_open)) return;
   const auto numbers = hn::Add(hn::Iota(du, 0), hn::Set(du, static_cast<std::uint32_t>(first + i)));
-  counts.open += hn::CompressStore(numbers, hn::AndNot(hn::Or(is_dark, is_lit), is_wanted), du, open + counts.open);
+  counts.open += hn::CompressStore(numbers, is_open, du, open + counts.open);
 }
 
-PointCounts decide_points(const PointsToProject& from, const TexelBounds& bounds, std::uint8_t* dark,
-                          std::uint32_t* open) {
-  PointCounts counts{};
+PointCounts decide_points(const PointsToProject& from, const TexelBounds& bounds, std::size_t first, std::size_t last,
+                          std::uint8_t* dark, std::uint32_t* open) {
+  PointCounts counts;
   Run run;
-  for (std::size_t first = 0; first < from.count; first += kRun) {
+  for (; first < last; first += kRun) {
     std::memset(dark + first, 0, kRun);
-    std::uint8_t last[kRun] = {};
+    std::uint8_t end[kRun] = {};
     const std::uint8_t* wanted = from.wanted + first;
     if (from.count - first < kRun) {
-      std::copy_n(wanted, from.count - first, last);
-      wanted = last;
+      std::copy_n(wanted, from.count - first, end);
+      wanted = end;
     }
     if (!is_any_wanted(wanted, from.bit)) continue;
     transform(from, first, run);
@@ -72,9 +74,9 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace facemap::simd {
 
-PointCounts decide_points(const PointsToProject& from, const TexelBounds& bounds, std::uint8_t* dark,
-                          std::uint32_t* open) {
-  return FACEMAP_DISPATCH(decide_points)(from, bounds, dark, open);
+PointCounts decide_points(const PointsToProject& from, const TexelBounds& bounds, std::size_t first, std::size_t last,
+                          std::uint8_t* dark, std::uint32_t* open) {
+  return FACEMAP_DISPATCH(decide_points)(from, bounds, first, last, dark, open);
 }
 
 }  // namespace facemap::simd

@@ -18,13 +18,15 @@ struct TexelBounds {
   float w_least, w_scale;
 };
 
-/// Of the points that `from` asks for: sets dark[i] to 1 where a point is dark, 0 for all others, and puts the numbers
-/// of those that the bounds leave open into `open`, ascending; points off the raster or nearer than from.nearest among
-/// them. from.wanted need not be readable past its end; there is room for 16 more in `open`, for 64 more in `dark`.
 struct PointCounts {
-  std::size_t asked, open;
+  std::size_t asked = 0, open = 0;
 };
-PointCounts decide_points(const PointsToProject& from, const TexelBounds& bounds, std::uint8_t* dark,
-                          std::uint32_t* open);
+
+/// Of the points first..last-1 that `from` asks for: sets dark[i] to 1 where a point is dark, 0 for all others, and
+/// puts the numbers of those that the bounds leave open into `open`, ascending; points off the raster or nearer than
+/// from.nearest are among them. `first` is a multiple of 64, and so is `last` if it is not from.count. from.wanted need
+/// not be readable past its end; `dark` has room for 64 more, `open` for 16 more than are open.
+PointCounts decide_points(const PointsToProject& from, const TexelBounds& bounds, std::size_t first, std::size_t last,
+                          std::uint8_t* dark, std::uint32_t* open);
 
 }  // namespace facemap::simd

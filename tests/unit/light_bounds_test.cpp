@@ -69,11 +69,11 @@ Decisions decide(const LightBounds& bounds, const Vector& light, const AskedPoin
   const std::vector<std::uint8_t> before = masks;
   DecidedPoints work;
   Counters counters;
-  const std::size_t count =
-      decide_points(bounds, light, points, {before.data(), masks.data(), stride, bit}, work, counters);
-  EXPECT_EQ(counters.by_float, points.size() - count);
+  decide_points(bounds, light, points, {before.data(), masks.data(), stride, bit}, work, counters);
+  EXPECT_EQ(counters.by_float, points.size() - work.numbers.size());
   Decisions decisions;
-  decisions.open.assign(work.numbers.begin(), work.numbers.begin() + static_cast<std::ptrdiff_t>(count));
+  decisions.open = work.numbers;
+  EXPECT_EQ(work.open.size(), work.numbers.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto at = i * stride + static_cast<std::size_t>(bit) / 8;
     EXPECT_EQ(masks[at] | 1 << bit % 8, 0xff) << "other lights' bits stay";
