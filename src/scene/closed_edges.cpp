@@ -115,9 +115,13 @@ void mark_sets_by_sums(const std::vector<Remains>& left, const VertexSets& sets,
   std::vector<std::uint32_t> sums(sets.size(), 0);
   executor.for_each(left.size(), [&](std::size_t piece, int) {
     for (const Edge e : left[piece].edges) {
-      const std::uint32_t w = weight(e);
-      std::atomic_ref(sums[sets.root_of(start_of(e))])
-          .fetch_add(e == undirected(e) ? w : 0 - w, std::memory_order_relaxed);
+      const std::uint32_t w = e == undirected(e) ? weight(e) : 0 - weight(e);
+      std::uint32_t& sum = sums[sets.root_of(start_of(e))];
+      if (left.size() == 1) {
+        sum += w;
+      } else {
+        std::atomic_ref(sum).fetch_add(w, std::memory_order_relaxed);
+      }
     }
   });
   for (std::size_t root = 0; root < sums.size(); ++root) {

@@ -206,7 +206,9 @@ void copy_rows(const RasterTarget& target, std::size_t columns, std::int32_t* fa
       const std::size_t at = first + column * kBlockSide;
       for (std::size_t i = 0; i < kBlockSide; i += hn::Lanes(d)) {
         const auto seen = hn::Gt(hn::Load(d, target.w + at + i), hn::Zero(d));
-        hn::StoreU(hn::IfThenElse(hn::RebindMask(di, seen), hn::Load(di, target.faces + at + i), none), di, to + i);
+        // What is not read need not come from memory.
+        const auto ids = hn::AllFalse(d, seen) ? none : hn::Load(di, target.faces + at + i);
+        hn::StoreU(hn::IfThenElse(hn::RebindMask(di, seen), ids, none), di, to + i);
       }
     };
     std::size_t column = 0;
