@@ -5,10 +5,12 @@
 #include <facemap/scene.h>
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "parallel/executor.h"
 #include "picture/sample_grid.h"
+#include "picture/shared_pages.h"
 
 namespace facemap {
 
@@ -16,6 +18,7 @@ namespace facemap {
 struct NearestFaces {
   std::vector<FaceId> faces;         ///< one a sample; kNoFace: none
   std::vector<std::uint32_t> loose;  ///< ascending numbers of the samples whose hit is tied or not strictly inside
+  std::shared_ptr<SharedPages> spare = nullptr;  ///< memory that finding them took, for other use, or null
 };
 
 /// Draws the faces over all samples at once, the transposed way: no list of faces is made. Exact: the faces and

@@ -49,6 +49,7 @@ class PlaneRaster {
       draw_in_bands();
     }
     finish(counters);
+    nearest_.spare = samples_.release();
     return std::move(nearest_);
   }
 

@@ -36,6 +36,15 @@ class Pages {
 
   Value* data() const noexcept { return data_; }
 
+  /// Lets the system have the memory of the values from number `first` on, which are 0 afterwards but for those of the
+  /// page where the first stands.
+  void give_back_from(std::size_t first) {
+    constexpr std::uintptr_t kPage = 4096;
+    const auto begin = (reinterpret_cast<std::uintptr_t>(data_ + first) + kPage - 1) / kPage * kPage;
+    const auto end = reinterpret_cast<std::uintptr_t>(start_) + mapped_;
+    if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_DONTNEED);
+  }
+
  private:
   static constexpr std::size_t kHugePage = std::size_t{1} << 21;
 

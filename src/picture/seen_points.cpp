@@ -35,7 +35,7 @@ class PointFinder {
  public:
   PointFinder(const Scene& scene, const SampleGrid& grid, const NearestFaces& nearest,
               const std::vector<Vector>& lights, const Executor& executor)
-      : scene_(scene), grid_(grid), nearest_(nearest), executor_(executor), rays_(grid) {
+      : scene_(scene), grid_(grid), nearest_(nearest), executor_(executor), rays_(grid), memory_(nearest.spare) {
     const Vector& camera = grid.frame.position();
     for (int i = 0; i < executor.threads(); ++i) {
       work_.push_back(std::unique_ptr<Work>(
@@ -74,16 +74,22 @@ class PointFinder {
       starts_[band + 1] = count;
     });
     for (std::size_t band = 0; band < bands(); ++band) starts_[band + 1] += starts_[band];
-    const std::size_t count = starts_.back();
     AskedPoints& points = seen_.points;
-    const auto pages = std::make_shared<SharedPages>(5 * SharedPages::room_for<std::uint32_t>(count));
-    for (auto* coordinates : {&points.x, &points.y, &points.z}) {
-      *coordinates = UnsetVector<std::int32_t>(count, UnsetAllocator<std::int32_t>(pages));
-    }
-    for (auto* numbers : {&points.faces, &points.samples}) {
-      *numbers = UnsetVector<std::uint32_t>(count, UnsetAllocator<std::uint32_t>(pages));
-    }
-    seen_.masks.resize(count * seen_.stride);
+    place_array(4, points.x);
+    place_array(3, points.y);
+    place_array(2, points.z);
+    place_array(1, points.faces);
+    place_array(0, points.samples);
+    if (nearest_.spare) nearest_.spare->give_back_rest();
+    seen_.masks.resize(starts_.back() * seen_.stride);
+  }
+
+  // As long as there is spare memory there; else where the `after` arrays that follow have room too.
+  template <class Value>
+  void place_array(std::size_t after, UnsetVector<Value>& array) {
+    const std::size_t bytes = SharedPages::room_for<Value>(starts_.back());
+    if (!memory_ || !memory_->has_room(bytes)) memory_ = std::make_shared<SharedPages>((after + 1) * bytes);
+    array = UnsetVector<Value>(starts_.back(), UnsetAllocator<Value>(memory_));
   }
 
   // ---- origin and step ----
@@ -187,7 +193,8 @@ class PointFinder {
   const NearestFaces& nearest_;
   const Executor& executor_;
   const RayTable rays_;
-  double farthest_ = 0;  // the camera's distance from any seen point is at most this
+  std::shared_ptr<SharedPages> memory_;  // where arrays of points go
+  double farthest_ = 0;                  // the camera's distance from any seen point is at most this
   std::vector<std::unique_ptr<Work>> work_;
   std::vector<std::size_t> starts_;
   Vector origin_{0};

@@ -1,48 +1,15 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <new>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "picture/pages.h"
+#include "picture/shared_pages.h"
 
 namespace facemap {
-
-/// Memory that several arrays share one after the other, so that large ones fill huge pages together. None is given
-/// back before the last of them is gone.
-class SharedPages {
- public:
-  explicit SharedPages(std::size_t bytes) : pages_(bytes), room_(bytes) {}
-
-  /// Room for an array of `count` values, or null if there is not enough left.
-  template <class Value>
-  Value* take(std::size_t count) {
-    const std::size_t bytes = room_for<Value>(count);
-    if (bytes > room_ - taken_) return nullptr;
-    taken_ += bytes;
-    return reinterpret_cast<Value*>(pages_.data() + (taken_ - bytes));
-  }
-  bool holds(const void* place) const {
-    return std::less_equal<>()(static_cast<const void*>(pages_.data()), place) &&
-           std::less<>()(place, static_cast<const void*>(pages_.data() + room_));
-  }
-
-  /// What an array of `count` values takes, in bytes.
-  template <class Value>
-  static constexpr std::size_t room_for(std::size_t count) {
-    return (count * sizeof(Value) + kAlignment - 1) / kAlignment * kAlignment;
-  }
-
- private:
-  static constexpr std::size_t kAlignment = 64;
-
-  Pages<char> pages_;
-  std::size_t room_, taken_ = 0;
-};
 
 /// As std::allocator, but elements that are added without a value are left as they are, and memory may be taken from
 /// what is shared.
