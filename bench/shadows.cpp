@@ -18,6 +18,7 @@
 #include "math/elementary.h"
 #include "math/exact_sign.h"
 #include "picture/gnomonic.h"
+#include "picture/light_bounds.h"
 #include "picture/nearest_faces.h"
 #include "picture/seen_points.h"
 #include "picture/shadow_faces.h"
@@ -230,9 +231,39 @@ void all_faces(benchmark::State& state) {
     state.PauseTiming();
     k.sorted.sort(k.from, k.points.size(), scene.face_count(), rest);
     state.ResumeTiming();
-    faces.run({scene, k.light, k.frame, 1, nullptr, never}, k.sorted, counters);
+    faces.run({scene, k.light, k.frame, 1, nullptr, nullptr, never}, k.sorted, counters);
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(counters.by_float / 16));
+}
+
+// The light's bounds from the scene; items are faces.
+void find_bounds(benchmark::State& state) {
+  const Kernels k;
+  const std::vector<FaceNeighbours> neighbours = find_face_neighbours(k.picture.scene);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(LightBounds::find(k.picture.scene, k.light, nullptr, neighbours).has_value());
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(k.picture.scene.face_count()));
+}
+
+void find_neighbours(benchmark::State& state) {
+  const Kernels k;
+  for (auto _ : state) benchmark::DoNotOptimize(find_face_neighbours(k.picture.scene).data());
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(k.picture.scene.face_count()));
+}
+
+// What the bounds leave open, of all points of the picture.
+void decide_points(benchmark::State& state) {
+  const Kernels k;
+  const auto bounds = LightBounds::find(k.picture.scene, k.light, nullptr, find_face_neighbours(k.picture.scene));
+  std::vector<std::uint8_t> dark(k.points.size() + 64);
+  std::vector<std::uint32_t> open(k.points.size() + 64);
+  const simd::TexelBounds texels = bounds.value().texels();
+  for (auto _ : state) {
+    const auto counts = simd::decide_points(k.from, texels, 0, k.points.size(), dark.data(), open.data());
+    benchmark::DoNotOptimize(counts.open);
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(k.points.size()));
 }
 
 void add(const std::string& name, int detail) {
@@ -251,6 +282,9 @@ int main(int argc, char** argv) {
   benchmark::RegisterBenchmark("measure_wanted", measure_wanted)->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark("count_points", count_points)->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark("sort_points", sort_points)->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("find_neighbours", find_neighbours)->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("find_bounds", find_bounds)->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("decide_points", decide_points)->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark("project_vertices", project_vertices)->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark("sift_faces", sift_faces)->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark("set_up_planes", set_up_planes)->Unit(benchmark::kMillisecond);
