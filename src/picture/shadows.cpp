@@ -1,7 +1,6 @@
 #include "picture/shadows.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <glm/common.hpp>
@@ -13,6 +12,7 @@
 #include "picture/shadow_points.h"
 #include "picture/shadow_rest.h"
 #include "simd/floating_point_mode.h"
+#include "simd/shadow_sides.h"
 
 namespace facemap {
 
@@ -45,8 +45,6 @@ constexpr double kLeastSlack = 0x1p-4;
 // Vertices are gathered by 32-bit numbers of floats.
 constexpr std::size_t kMostVertices = std::size_t{1} << 29;
 
-constexpr int kSides = 6;
-
 // So many faces are looked at to learn which way faces are long.
 constexpr std::size_t kSampledFaces = 1024;
 
@@ -74,11 +72,6 @@ bool is_longer_along_v(const Scene& scene, const simd::ShadowFrame& frame) {
   }
   return along_v > along_u;
 }
-
-struct Side {
-  std::size_t count = 0;
-  double nearest = HUGE_VAL;  // world units: the least of the points' greatest components
-};
 
 class LightPass {
  public:
@@ -114,7 +107,7 @@ class LightPass {
       if (is_longer_along_v(scene_, *frame)) frame = turned(*frame);
       run_frame(*frame, 1, wanted.count, nearest_of(*frame, box));
     } else {
-      run_sides();
+      run_sides(box);
     }
     ask_rest();
   }
@@ -144,29 +137,21 @@ class LightPass {
     return nearest;
   }
 
-  void run_sides() {
-    std::array<Side, kSides> sides;
-    double farthest = 0;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      if (parts_.wanted[i] == 0) continue;
-      const DVector offset = from_light_ + points_.step * DVector(points_.x[i], points_.y[i], points_.z[i]);
-      int axis = std::fabs(offset.y) > std::fabs(offset.x) ? 1 : 0;
-      if (std::fabs(offset.z) > std::fabs(offset[axis])) axis = 2;
-      const double depth = std::fabs(offset[axis]);
-      const int side = 2 * axis + (offset[axis] < 0 ? 1 : 0);
-      parts_.wanted[i] = static_cast<std::uint8_t>(1u << side);
-      ++sides[side].count;
-      sides[side].nearest = std::min(sides[side].nearest, depth);
-      farthest = std::max(farthest, depth);
-    }
-    if (!(farthest > 0)) return add_all_to_rest();
-    for (int side = 0; side < kSides; ++side) {
-      if (sides[side].count == 0) continue;
-      run_frame(frame_of_side(light_, side, farthest), static_cast<std::uint8_t>(1u << side), sides[side].count,
-                sides[side].nearest / farthest);
+  void run_sides(const OffsetBox& box) {
+    double reach = 0;
+    for (int k = 0; k < 3; ++k) reach = std::max({reach, std::fabs(box.lower[k]), std::fabs(box.upper[k])});
+    if (!(reach > 0)) return add_all_to_rest();
+    simd::ShadowFrame frame = frame_of_side(light_, 4, reach);
+    for (int k = 0; k < 3; ++k) frame.rows[k][k] = 1 / reach;  // plain offsets: the sides' rims are wider than rounding
+    const simd::SideCounts counts = simd::split_by_side(
+        PointProjection(points_, light_, size_).onto(frame, 1, parts_.wanted.data(), 1), parts_.wanted.data());
+    for (int side = 0; side < simd::kSides; ++side) {
+      if (counts.of[side] == 0) continue;
+      run_frame(frame_of_side(light_, side, reach), static_cast<std::uint8_t>(1u << side), counts.of[side], 0);
     }
   }
 
+  // `nearest`: the least Z of the points, or 0: not known.
   void run_frame(const simd::ShadowFrame& frame, std::uint8_t bit, std::size_t wanted, double nearest) {
     const PointProjection projection(points_, light_, size_);
     // A little more than the nearest point needs, so that rounding does not leave it out.
