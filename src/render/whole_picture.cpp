@@ -179,6 +179,9 @@ WholePicture::Seen WholePicture::see(const SampleGrid& grid) {
 // What the first light of a scene needs, what moved points do if there are closed parts, and fresh memory for the
 // colours: by tasks of their own.
 void WholePicture::prepare_lights(const SampleGrid& grid, const MovedPoints& moved, SeenPoints& seen) {
+  const auto make_closed = [&] { state_.closed = std::make_unique<ClosedParts>(scene_, executor_); };
+  // Several threads find both without waiting to know whether there are closed parts at all.
+  if (executor_.threads() == 1 && state_.closed == nullptr) make_closed();
   const bool makes_closed = state_.closed == nullptr;
   const bool finds_hidden = !moved.numbers.empty() && (makes_closed || state_.closed->any());
   std::vector<std::uint32_t> hidden;
@@ -188,14 +191,16 @@ void WholePicture::prepare_lights(const SampleGrid& grid, const MovedPoints& mov
       hidden = find_hidden_points(scene_, grid.frame.position(), seen.points, moved,
                                   state_.scratch[static_cast<std::size_t>(worker)], counters);
     }
-    if (task == 1 && makes_closed) state_.closed = std::make_unique<ClosedParts>(scene_, executor_);
+    if (task == 1 && makes_closed) make_closed();
     if (task == 2 && paints_) colors_.assign(grid.count(), options_.background);
   });
-  statistics_.camera_tests += counters;
-  std::vector<std::uint32_t> loose(seen.loose.size() + hidden.size());
-  std::merge(seen.loose.begin(), seen.loose.end(), hidden.begin(), hidden.end(), loose.begin());
-  loose.erase(std::unique(loose.begin(), loose.end()), loose.end());
-  seen.loose = std::move(loose);
+  if (state_.closed->any()) {
+    statistics_.camera_tests += counters;
+    std::vector<std::uint32_t> loose(seen.loose.size() + hidden.size());
+    std::merge(seen.loose.begin(), seen.loose.end(), hidden.begin(), hidden.end(), loose.begin());
+    loose.erase(std::unique(loose.begin(), loose.end()), loose.end());
+    seen.loose = std::move(loose);
+  }
   if (keeps_bounds_ && !state_.bounds.are_made() && !lights_.empty()) {
     state_.bounds.make(scene_, positions_of(lights_), state_.closed.get(),
                        state_.closed->outside(scene_, grid.frame.position()), executor_);
