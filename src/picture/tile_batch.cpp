@@ -36,7 +36,9 @@ void TileBatch::collect(int column, int row) {
     return;
   }
   for (int left = column; left < end_column; left += simd::kRunColumns) {
-    for (int j = row; j < end_row; ++j) add_run(j, left, std::min(left + simd::kRunColumns, end_column));
+    for (int j = row; j < end_row; ++j) {
+      for (int i = left; i < std::min(left + simd::kRunColumns, end_column); ++i) add(j, i);
+    }
   }
 }
 
@@ -49,32 +51,21 @@ void TileBatch::collect_some(int column, int row) {
       const auto cell = static_cast<std::uint64_t>(top) << 32 | static_cast<std::uint64_t>(left);
       const int place = static_cast<int>(mixed(cell) % (kCell * kCell));
       const int i = left + place % kCell, j = top + place / kCell;
-      if (i < grid_.columns() && j < grid_.rows()) add_run(j, i, i + 1);
+      if (i < grid_.columns() && j < grid_.rows()) add(j, i);
     }
   }
 }
 
-// Those of the samples begin..end-1 of a row that see a face.
-void TileBatch::add_run(int row, int begin, int end) {
-  const auto first = static_cast<std::size_t>(row) * table_.columns.size() + static_cast<std::size_t>(begin);
-  const FaceId* faces = nearest_.faces.data() + first;
-  const int length = end - begin;
-  FaceId all = kNoFace;  // -1, and stays so only as long as no id is a face
-  for (int i = 0; i < length; ++i) all &= faces[i];
-  if (all == kNoFace) return;
-
-  const double* x = table_.columns.data() + begin;
-  const double y = table_.rows[static_cast<std::size_t>(row)];
-  std::size_t count = rays_.count;
-  for (int i = 0; i < length; ++i) {
-    const FaceId face = faces[i];
-    samples_[count] = static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(i);
-    faces_[count] = static_cast<std::uint32_t>(face);
-    rays_.map_x[count] = x[i];
-    rays_.map_y[count] = y;
-    count += face != kNoFace;  // no branch: edges of shapes are hard to predict
-  }
-  rays_.count = count;
+// The sample if it sees a face. No branch: edges of shapes are hard to predict.
+void TileBatch::add(int row, int column) {
+  const auto x = static_cast<std::size_t>(column), y = static_cast<std::size_t>(row);
+  const std::size_t sample = y * table_.columns.size() + x, count = rays_.count;
+  const FaceId face = nearest_.faces[sample];
+  samples_[count] = static_cast<std::uint32_t>(sample);
+  faces_[count] = static_cast<std::uint32_t>(face);
+  rays_.map_x[count] = table_.columns[x];
+  rays_.map_y[count] = table_.rows[y];
+  rays_.count = count + (face != kNoFace);
 }
 
 void TileBatch::find_offsets(const Vector& origin, double allowed) {

@@ -43,7 +43,7 @@ class TileBatch {
   const FaceSlots& slots() const { return slots_; }
 
  private:
-  void add_run(int row, int begin, int end);
+  void add(int row, int column);
   void sharpen(const Vector& origin, std::size_t i);
 
   const Scene& scene_;
