@@ -77,6 +77,7 @@ void decide_points(const LightBounds& bounds, const Vector& light, const AskedPo
   const auto from = PointProjection(points, light, size)
                         .onto(bounds.frame(), simd::kShadowGreatestSlack, asked_bytes(mask, count, work.asked),
                               static_cast<std::uint8_t>(1u << (mask.bit % 8)));
+  work.faces = bounds.all_faces_are_beyond(from.nearest) ? bounds.faces() : nullptr;
   for (std::size_t first = 0; first < count; first += kSlice) {
     const std::size_t last = std::min(first + kSlice, count), before = work.numbers.size();
     work.numbers.resize(before + (last - first) + kPadding);

@@ -19,11 +19,14 @@ struct DecidedPoints {
   std::vector<std::uint32_t> numbers;  ///< of the points that are open, ascending
   AskedPoints open;                    ///< those points, but for their samples
 
+  /// The only faces that may block those points, or null: any may.
+  const std::vector<std::uint32_t>* faces = nullptr;
+
   std::size_t memory_bytes() const noexcept;
 };
 
 /// For points whose bit is set in mask.asked: clears it in mask.lit where the light's bounds say that the point is
-/// dark. Leaves in `work` the points about which they say nothing.
+/// dark. Leaves in `work` the points about which they say nothing. `bounds` is to outlive work.faces.
 void decide_points(const LightBounds& bounds, const Vector& light, const AskedPoints& points, const MaskBit& mask,
                    DecidedPoints& work, Counters& counters);
 

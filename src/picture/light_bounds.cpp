@@ -96,9 +96,9 @@ class LightBounds::Finder {
       }
     }
     bounds_.w_least_ = least;
+    bounds_.w_greatest_ = greatest * (simd::kShadowDepthFactor * simd::kShadowDepthFactor);
     // The last step is for points in front of all faces.
-    bounds_.w_scale_ =
-        (simd::TexelBounds::kSteps - 1) / (greatest * (simd::kShadowDepthFactor * simd::kShadowDepthFactor) - least);
+    bounds_.w_scale_ = (simd::TexelBounds::kSteps - 1) / (bounds_.w_greatest_ - least);
     return true;
   }
 
@@ -126,6 +126,7 @@ class LightBounds::Finder {
   }
 
   // Leaves out faces that in each of their texels are behind what is dark: a point that such a face blocks is dark.
+  // It has to be told so by its texel: what makes it dark may be entry faces, which are not listed either.
   void find_faces() {
     std::vector<std::uint32_t> faces;
     for_each_face([&](std::uint32_t face, const FaceTexels& texels) {

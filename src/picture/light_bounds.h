@@ -26,8 +26,11 @@ class LightBounds {
 
   const simd::ShadowFrame& frame() const noexcept { return frame_; }
   simd::TexelBounds texels() const noexcept { return {texels_.data(), size_, w_least_, w_scale_}; }
-  /// The only faces that may stand between the light and a point that is not decided, ascending; or null: any may.
+  /// The only faces that may stand between the light and a point that is not decided, ascending; or null: any may. Of
+  /// the points that have no place on the raster it holds for those off it and for those nearer than all faces.
   const std::vector<std::uint32_t>* faces() const noexcept { return has_faces_ ? &faces_ : nullptr; }
+  /// Whether each point that is left without a place because its Z is below `nearest` is nearer than all faces.
+  bool all_faces_are_beyond(float nearest) const noexcept { return double{nearest} * w_greatest_ <= 1; }
   std::size_t memory_bytes() const noexcept {
     return sizeof(*this) + texels_.capacity() * sizeof(texels_[0]) + faces_.capacity() * sizeof(faces_[0]);
   }
@@ -39,6 +42,7 @@ class LightBounds {
   simd::ShadowFrame frame_{};
   int size_ = 0;
   float w_least_ = 0, w_scale_ = 0;
+  float w_greatest_ = 0;  // no point of a face has a greater w, nor would a point there be computed to have one
   std::vector<std::uint32_t> texels_;
   bool has_faces_ = false;
   std::vector<std::uint32_t> faces_;

@@ -113,7 +113,7 @@ void clear_blocked(const LightWork& work, const SampleGrid& grid, const MovedPoi
         if (bounds != nullptr) {
           DecidedPoints& decided = work.bounds->work(worker);
           decide_points(*bounds, light, points, mask, decided, own);
-          ask_some(decided.open, decided.numbers.data(), skip_entries, bounds->faces());
+          ask_some(decided.open, decided.numbers.data(), skip_entries, decided.faces);
         } else {
           clear_blocked(scene, light, points, mask, skip_entries, is_between, scratch, &own);
         }

@@ -220,4 +220,37 @@ TEST(WholePictures, APointOnAnEdgeOfAClosedPartAsksAllFaces) {
   EXPECT_GT(seen_on_the_step, 0);
 }
 
+// A ball and a leaf behind it stand at the near end of a floor as long as 256 times their height. Beside its length
+// they are so near to the light that points there have no place on the raster of its kept map. The ball is closed, so
+// that its faces towards the light are left out, and those behind them because the map has them in the dark: such
+// points are to ask all faces.
+TEST(WholePictures, PointsTooNearToALightAskMoreThanItsKeptMap) {
+  constexpr float kHalf = 0x1p-8f;
+  Mesh mesh = test_scenes::geodesic_sphere(3, DVector(0, 0, 0.5 * kHalf), 0.5 * kHalf);
+  test_scenes::add_triangle(mesh, {-kHalf, -kHalf, 2 * kHalf}, {kHalf, -kHalf, 2 * kHalf}, {0, kHalf, 2 * kHalf});
+  test_scenes::add_triangle(mesh, {-kHalf, -kHalf, 0}, {kHalf, -kHalf, 1}, {-kHalf, -kHalf, 1});
+  const Scene scene(mesh);
+  const Light light{{0, 0, -4 * kHalf}};
+  View view;
+  view.position = {0, 4 * kHalf, -4 * kHalf};
+  view.look_at = {0, 0, 2 * kHalf};
+  view.up = {0, 1, 0};
+  view.field_angle = 1.5;
+  Renderer::Options options;
+  options.width = options.height = 256;
+  options.strategy = Renderer::Strategy::Transposed;
+  options.light_maps = Renderer::LightMaps::None;
+  const Image image = Renderer(scene, view, {light}, options).look();
+  const auto leaf = static_cast<FaceId>(mesh.face_count() - 2);
+  std::size_t in_shadow = 0, beyond = 0;
+  for (std::size_t i = 0; i < image.ids.size(); ++i) {
+    in_shadow += image.ids[i] == leaf && image.lights[i] == 0;
+    beyond += image.ids[i] > leaf;
+  }
+  EXPECT_GT(in_shadow, 20u);
+  EXPECT_GT(beyond, 20u);
+  options.light_maps = Renderer::LightMaps::Keep;
+  EXPECT_TRUE(Renderer(scene, view, {light}, options).look().lights == image.lights);
+}
+
 }  // namespace
