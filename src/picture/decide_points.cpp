@@ -63,8 +63,8 @@ std::size_t DecidedPoints::memory_bytes() const noexcept {
          bytes_of(open.faces);
 }
 
-void decide_points(const LightBounds& bounds, const Vector& light, const AskedPoints& points, const MaskBit& mask,
-                   DecidedPoints& work, Counters& counters) {
+double decide_points(const LightBounds& bounds, const Vector& light, const AskedPoints& points, const MaskBit& mask,
+                     DecidedPoints& work, Counters& counters) {
   const std::size_t count = points.size();
   work.dark.resize(count + kPadding);
   work.numbers.clear();
@@ -78,18 +78,22 @@ void decide_points(const LightBounds& bounds, const Vector& light, const AskedPo
                         .onto(bounds.frame(), simd::kShadowGreatestSlack, asked_bytes(mask, count, work.asked),
                               static_cast<std::uint8_t>(1u << (mask.bit % 8)));
   work.faces = bounds.all_faces_are_beyond(from.nearest) ? bounds.faces() : nullptr;
+  std::size_t asked = 0;
   for (std::size_t first = 0; first < count; first += kSlice) {
     const std::size_t last = std::min(first + kSlice, count), before = work.numbers.size();
     work.numbers.resize(before + (last - first) + kPadding);
     const auto counts =
         simd::decide_points(from, bounds.texels(), first, last, work.dark.data(), &work.numbers[before]);
-    counters.by_float += counts.asked - counts.open;
+    asked += counts.asked;
     work.numbers.resize(before + counts.open);
     take(points, work.numbers, before, work.open);
   }
   const std::unique_lock lock =
       mask.writing != nullptr ? std::unique_lock(*mask.writing) : std::unique_lock<std::mutex>();
   clear_dark(work.dark.data(), count, mask);
+  const std::size_t decided = asked - work.numbers.size();
+  counters.by_float += decided;
+  return asked > 0 ? static_cast<double>(decided) / static_cast<double>(asked) : 1;
 }
 
 }  // namespace facemap

@@ -26,8 +26,9 @@ struct DecidedPoints {
 };
 
 /// For points whose bit is set in mask.asked: clears it in mask.lit where the light's bounds say that the point is
-/// dark. Leaves in `work` the points about which they say nothing. `bounds` is to outlive work.faces.
-void decide_points(const LightBounds& bounds, const Vector& light, const AskedPoints& points, const MaskBit& mask,
-                   DecidedPoints& work, Counters& counters);
+/// dark. Leaves in `work` the points about which they say nothing; `bounds` is to outlive work.faces. Returns the share
+/// of the points asked that they decide.
+double decide_points(const LightBounds& bounds, const Vector& light, const AskedPoints& points, const MaskBit& mask,
+                     DecidedPoints& work, Counters& counters);
 
 }  // namespace facemap

@@ -26,6 +26,12 @@ class KeptBounds {
   /// Those of a light, or null where there are none for such a camera.
   const LightBounds* of(std::size_t light, const std::vector<std::uint8_t>& outside_camera) const;
 
+  /// Bounds that decide less than this share of a picture's points cost more than they save.
+  static constexpr double kWorthKeeping = 0.3;
+
+  /// Gives up those of a light. Several threads may do so, for a light each.
+  void drop(std::size_t light) { of_lights_[light].reset(); }
+
   /// One a worker of the executor.
   DecidedPoints& work(int worker) { return work_[static_cast<std::size_t>(worker)]; }
 

@@ -112,8 +112,9 @@ void clear_blocked(const LightWork& work, const SampleGrid& grid, const MovedPoi
         const LightBounds* bounds = work.bounds != nullptr ? work.bounds->of(l, outside_camera) : nullptr;
         if (bounds != nullptr) {
           DecidedPoints& decided = work.bounds->work(worker);
-          decide_points(*bounds, light, points, mask, decided, own);
+          const double share = decide_points(*bounds, light, points, mask, decided, own);
           ask_some(decided.open, decided.numbers.data(), skip_entries, decided.faces);
+          if (share < KeptBounds::kWorthKeeping) work.bounds->drop(l);
         } else {
           clear_blocked(scene, light, points, mask, skip_entries, is_between, scratch, &own);
         }
