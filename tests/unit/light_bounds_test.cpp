@@ -11,6 +11,9 @@
 #include "math/exact_sign.h"
 #include "picture/decide_points.h"
 #include "picture/face_texels.h"
+#include "picture/gnomonic.h"
+#include "scene/closed_parts.h"
+#include "simd/shadow_faces.h"
 #include "simd/target.h"
 #include "support/random.h"
 #include "support/scenes.h"
@@ -61,6 +64,7 @@ AskedPoints asked(const TestScene& test, const std::vector<Vector>& points) {
 struct Decisions {
   std::vector<std::uint8_t> lit;  // cleared where dark
   std::vector<std::uint32_t> open;
+  const std::vector<std::uint32_t>* faces;  // that may block those
 };
 
 Decisions decide(const LightBounds& bounds, const Vector& light, const AskedPoints& points, int bit,
@@ -73,6 +77,7 @@ Decisions decide(const LightBounds& bounds, const Vector& light, const AskedPoin
   EXPECT_EQ(counters.by_float, points.size() - work.numbers.size());
   Decisions decisions;
   decisions.open = work.numbers;
+  decisions.faces = work.faces;
   EXPECT_EQ(work.open.size(), work.numbers.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto at = i * stride + static_cast<std::size_t>(bit) / 8;
@@ -168,11 +173,95 @@ TEST(LightBounds, AreTheSameOnEveryTarget) {
   }
 }
 
+// Where entry faces of closed parts may be left out: lit means that no other face blocks a point, and what is listed
+// has a face that blocks each open point that one of the others blocks.
+TEST(LightBounds, LeaveOutEntryFacesOfClosedPartsAlone) {
+  constexpr std::uint64_t kSeed = 0x5eed0079;
+  std::printf("seed 0x%llx\n", (unsigned long long)kSeed);
+  Random random(kSeed);
+  std::size_t lit = 0, dark = 0, listed = 0, hidden = 0;
+  for (int round = 0; round < 100; ++round) {
+    const auto kind = static_cast<Kind>(random.below(test_scenes::kKindCount - 1));  // not Wild
+    TestScene test = test_scenes::make_scene(kind, random.between(4, 60), random);
+    const DVector middle = DVector(test.centre) + 0.7 * test.radius * random.in_cube();
+    test.mesh = test_scenes::joined(
+        test_scenes::geodesic_sphere(2, middle, test.radius * std::exp2(random.between(-5.0, 0.0))), test.mesh);
+    const Scene scene(test.mesh);
+    const ClosedParts closed(scene, Executor(1));
+    const Vector light(DVector(test.centre) + test.radius * std::exp2(random.between(1.5, 4.0)) * random.direction());
+    const std::vector<std::uint8_t> skips =
+        closed.skippable_entries(scene, std::vector<std::uint8_t>(closed.closed_count(), 1), light);
+    if (skips.empty()) continue;
+    const auto bounds = LightBounds::find(scene, light, skips.data(), find_face_neighbours(scene));
+    if (!bounds) continue;
+    std::vector<Vector> points;
+    for (int i = 0; i < 200; ++i) points.push_back(make_point(test, random));
+    const Decisions decisions = decide(*bounds, light, asked(test, points), 0, 1);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      bool is_hidden = false, is_by_others = false, is_by_listed = false;
+      for (const std::uint32_t face : scene.kept_faces()) {
+        const Triangle triangle = triangle_of(scene, face);
+        const int face_side = side(triangle, light);
+        if (!blocks(triangle, face_side, light, GivenPoint{points[i]})) continue;
+        is_hidden = true;
+        if (face_side < 0 && skips[face] != 0) continue;
+        is_by_others = true;
+        is_by_listed = is_by_listed || decisions.faces == nullptr ||
+                       std::binary_search(decisions.faces->begin(), decisions.faces->end(), face);
+      }
+      if (std::binary_search(decisions.open.begin(), decisions.open.end(), i)) {
+        ASSERT_EQ(is_by_listed, is_by_others) << test.name << " round " << round << " point " << i;
+        listed += decisions.faces != nullptr;
+      } else if (decisions.lit[i] != 0) {
+        ASSERT_FALSE(is_by_others) << test.name << " round " << round << " point " << i;
+        ++lit;
+      } else {
+        ASSERT_TRUE(is_hidden) << test.name << " round " << round << " point " << i;
+        ++dark;
+      }
+      hidden += is_hidden;
+    }
+  }
+  std::printf("%zu lit, %zu dark for certain, %zu open with a list, %zu blocked\n", lit, dark, listed, hidden);
+  EXPECT_GT(lit, 1000u);
+  EXPECT_GT(dark, 1000u);
+  EXPECT_GT(listed, 1000u);
+}
+
 TEST(LightBounds, AreNotMadeForALightAmongTheFaces) {
   Random random(0x5eed0077);
   const TestScene test = test_scenes::make_scene(Kind::Shell, 40, random);
   const Scene scene(test.mesh);
   EXPECT_FALSE(LightBounds::find(scene, test.centre, nullptr, find_face_neighbours(scene)));
+}
+
+// Faces in planes through the light, or next to one: the side is the exact one or not known.
+TEST(FaceTexels, NeverMistakeASide) {
+  constexpr std::uint64_t kSeed = 0x5eed007a;
+  std::printf("seed 0x%llx\n", (unsigned long long)kSeed);
+  Random random(kSeed);
+  std::size_t known = 0, unknown = 0;
+  for (int round = 0; round < 20000; ++round) {
+    const DVector a = random.in_cube(), b = random.in_cube(), c = random.in_cube();
+    const DVector along = normalized(random.unit() * (b - a) + random.between(-1.0, 1.0) * (c - a));
+    const DVector off = std::exp2(random.between(-30.0, -10.0)) * DVector(random.direction());
+    const Vector light((a + b + c) / 3.0 + random.between(4.0, 20.0) * along + off);
+    Mesh mesh;
+    test_scenes::add_triangle(mesh, Vector(a), Vector(b), Vector(c));
+    const OffsetBox box{DVector(-1) - DVector(light), DVector(1) - DVector(light)};
+    const auto frame = frame_towards(light, box, 0);
+    if (!frame) continue;
+    std::vector<float> places(3 * (mesh.positions.size() + 16));
+    simd::project_vertices(*frame, &mesh.positions[0].x, mesh.positions.size(), places.data());
+    const int found = FaceTexels(&places[0], &places[3], &places[6], 64).side();
+    ++(found == 0 ? unknown : known);
+    if (found != 0) {
+      const Triangle triangle{mesh.positions[0], mesh.positions[1], mesh.positions[2]};
+      ASSERT_EQ(found, side(triangle, light)) << round;
+    }
+  }
+  EXPECT_GT(known, 1000u);
+  EXPECT_GT(unknown, 1000u);
 }
 
 // A face's texels hold all of it, and its w there is within the bounds.
