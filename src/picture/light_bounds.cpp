@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kLeastSize = 64, kMostSize = 512;  // texels a side
 
-// A raster has about so many texels a face.
-constexpr std::size_t kTexelsPerFace = 2;
+// A raster has at least so many texels a face.
+constexpr std::size_t kTexelsPerFace = 1;
 
 // Faces are listed if they are at most this share of all: a list costs memory and order.
 constexpr double kWorthListing = 0.7;

@@ -15,12 +15,16 @@ template <class Value>
 class Pages {
  public:
   explicit Pages(std::size_t count) {
-    const std::size_t bytes = std::max<std::size_t>(1, count * sizeof(Value));
-    mapped_ = bytes < kHugePage ? bytes : bytes + kHugePage;  // room to begin at a huge page
-    start_ = ::mmap(nullptr, mapped_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (start_ == MAP_FAILED) throw std::bad_alloc();
-    char* begin = static_cast<char*>(start_);
+    const std::size_t bytes = (std::max<std::size_t>(1, count * sizeof(Value)) + kPage - 1) / kPage * kPage;
+    const std::size_t room = bytes < kHugePage ? bytes : bytes + kHugePage;  // to begin at a huge page
+    void* const start = ::mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (start == MAP_FAILED) throw std::bad_alloc();
+    char* begin = static_cast<char*>(start);
     if (bytes >= kHugePage) begin += (kHugePage - reinterpret_cast<std::uintptr_t>(begin) % kHugePage) % kHugePage;
+    const auto before = static_cast<std::size_t>(begin - static_cast<char*>(start));
+    unmap(start, before);
+    unmap(begin + bytes, room - before - bytes);
+    mapped_ = bytes;
     const std::size_t on_huge_pages = bytes / kHugePage * kHugePage;
 #ifdef MADV_HUGEPAGE
     if (on_huge_pages > 0) ::madvise(begin, on_huge_pages, MADV_HUGEPAGE);
@@ -30,26 +34,28 @@ class Pages {
 #endif
     data_ = reinterpret_cast<Value*>(begin);
   }
-  ~Pages() { ::munmap(start_, mapped_); }
+  ~Pages() { unmap(data_, mapped_); }
   Pages(const Pages&) = delete;
   Pages& operator=(const Pages&) = delete;
 
   Value* data() const noexcept { return data_; }
 
-  /// Lets the system have the memory of the values from number `first` on, which are 0 afterwards but for those of the
-  /// page where the first stands.
+  /// Gives the memory of the values from number `first` on back to the system, whole pages of it.
   void give_back_from(std::size_t first) {
-    constexpr std::uintptr_t kPage = 4096;
-    const auto begin = (reinterpret_cast<std::uintptr_t>(data_ + first) + kPage - 1) / kPage * kPage;
-    const auto end = reinterpret_cast<std::uintptr_t>(start_) + mapped_;
-    if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_DONTNEED);
+    const std::size_t kept = (first * sizeof(Value) + kPage - 1) / kPage * kPage;
+    if (kept >= mapped_) return;
+    unmap(reinterpret_cast<char*>(data_) + kept, mapped_ - kept);
+    mapped_ = kept;
   }
 
  private:
-  static constexpr std::size_t kHugePage = std::size_t{1} << 21;
+  static constexpr std::size_t kPage = 4096, kHugePage = std::size_t{1} << 21;
 
-  void* start_;
-  std::size_t mapped_;
+  static void unmap(void* begin, std::size_t bytes) noexcept {
+    if (bytes > 0) ::munmap(begin, bytes);
+  }
+
+  std::size_t mapped_;  // bytes
   Value* data_;
 };
 

@@ -26,8 +26,11 @@ class SharedPages {
   /// Takes all back, whose arrays must not be used any more. What stood there stays.
   void take_back() { taken_ = 0; }
 
-  /// Lets the system have the pages that are not taken; they can be taken all the same.
-  void give_back_rest() { pages_.give_back_from(taken_); }
+  /// Gives the pages that are not taken back to the system.
+  void give_back_rest() {
+    pages_.give_back_from(taken_);
+    size_ = taken_;
+  }
 
   bool has_room(std::size_t bytes) const { return bytes <= size_ - taken_; }
   bool holds(const void* place) const {
