@@ -26,7 +26,10 @@ class FaceTexels {
   /// Whether it may meet some texel.
   bool any() const { return column0_ <= column1_ && row0_ <= row1_; }
 
-  /// The texels' box.
+  /// The texels' box, and how many it has.
+  std::size_t box_size() const {
+    return any() ? static_cast<std::size_t>(column1_ - column0_ + 1) * static_cast<std::size_t>(row1_ - row0_ + 1) : 0;
+  }
   int column0() const { return column0_; }
   int column1() const { return column1_; }
   int row0() const { return row0_; }

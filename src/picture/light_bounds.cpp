@@ -20,6 +20,9 @@ constexpr std::size_t kTexelsPerFace = 1;
 // Faces are listed if they are at most this share of all: a list costs memory and order.
 constexpr double kWorthListing = 0.7;
 
+// The boxes of all faces may have so many texels: for each face, and times the whole raster.
+constexpr std::size_t kMostBoxTexels = 200, kMostLayers = 64;
+
 // Coordinates of vertices on the raster are within this, or the bounds of FaceTexels would not hold.
 constexpr float kFarthestPlace = 1.25f;
 
@@ -63,7 +66,7 @@ class LightBounds::Finder {
   }
 
   bool find(const std::vector<FaceNeighbours>& neighbours) {
-    if (!find_scale()) return false;
+    if (!find_scale() || is_too_much()) return false;
     const std::vector<float> lit = find_lit();
     encode(lit, find_dark(scene_, neighbours, places_, bounds_.size_));
     find_faces();
@@ -102,8 +105,24 @@ class LightBounds::Finder {
     return true;
   }
 
+  // Whether the faces lie over each other so often that the bounds would take long.
+  bool is_too_much() const {
+    const std::size_t faces = scene_.kept_faces().size();
+    std::size_t left = kMostBoxTexels * faces + kMostLayers * texel_count();
+    for (const std::uint32_t face : scene_.kept_faces()) {
+      const std::size_t size = FaceTexels(place(face, 0), place(face, 1), place(face, 2), bounds_.size_).box_size();
+      if (size > left) return true;
+      left -= size;
+    }
+    return false;
+  }
+
+  std::size_t texel_count() const {
+    return static_cast<std::size_t>(bounds_.size_) * static_cast<std::size_t>(bounds_.size_);
+  }
+
   std::vector<float> find_lit() const {
-    std::vector<float> lit(static_cast<std::size_t>(bounds_.size_) * static_cast<std::size_t>(bounds_.size_), 0.0f);
+    std::vector<float> lit(texel_count(), 0.0f);
     for_each_face([&](std::uint32_t, const FaceTexels& texels) {
       texels.for_each(
           [&](const FaceTexels::Piece& piece) { lit[piece.texel] = std::max(lit[piece.texel], piece.greatest); });

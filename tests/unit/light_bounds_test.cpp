@@ -264,6 +264,20 @@ TEST(FaceTexels, NeverMistakeASide) {
   EXPECT_GT(unknown, 1000u);
 }
 
+TEST(LightBounds, AreNotMadeOfAPileOfLargeFaces) {
+  Mesh mesh;
+  for (int i = 0; i < 2000; ++i) {
+    const float height = 0.001f * static_cast<float>(i);
+    test_scenes::add_triangle(mesh, {-4, height, -4}, {4, height, -4}, {0, height, 4});
+  }
+  const Scene scene(mesh);
+  EXPECT_FALSE(LightBounds::find(scene, {0, 30, 0}, nullptr, find_face_neighbours(scene)));
+  mesh.positions.resize(3 * 20);
+  mesh.triangles.resize(20);
+  const Scene few(mesh);
+  EXPECT_TRUE(LightBounds::find(few, {0, 30, 0}, nullptr, find_face_neighbours(few)));
+}
+
 // A face's texels hold all of it, and its w there is within the bounds.
 TEST(FaceTexels, HoldTheFace) {
   constexpr std::uint64_t kSeed = 0x5eed0078;
