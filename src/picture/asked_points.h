@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "picture/unset_vector.h"
 
@@ -24,5 +25,10 @@ struct AskedPoints {
 
   std::size_t size() const noexcept { return x.size(); }
 };
+
+/// Makes `some` the points of these numbers, all but their samples: those of places `first` on, as the ones before are
+/// there already.
+void copy_points(const AskedPoints& points, const std::vector<std::uint32_t>& numbers, std::size_t first,
+                 AskedPoints& some);
 
 }  // namespace facemap

@@ -43,19 +43,6 @@ void clear_dark(const std::uint8_t* dark, std::size_t count, const MaskBit& mask
   }
 }
 
-// Copies the points of numbers first.. to the end of `some`.
-void take(const AskedPoints& points, const std::vector<std::uint32_t>& numbers, std::size_t first, AskedPoints& some) {
-  for (auto* coordinates : {&some.x, &some.y, &some.z}) coordinates->resize(numbers.size());
-  some.faces.resize(numbers.size());
-  for (std::size_t k = first; k < numbers.size(); ++k) {
-    const std::uint32_t i = numbers[k];
-    some.x[k] = points.x[i];
-    some.y[k] = points.y[i];
-    some.z[k] = points.z[i];
-    some.faces[k] = points.faces[i];
-  }
-}
-
 }  // namespace
 
 std::size_t DecidedPoints::memory_bytes() const noexcept {
@@ -68,9 +55,6 @@ double decide_points(const LightBounds& bounds, const Vector& light, const Asked
   const std::size_t count = points.size();
   work.dark.resize(count + kPadding);
   work.numbers.clear();
-  work.open.origin = points.origin;
-  work.open.step = points.step;
-  work.open.error = points.error;
   // No offset is longer: coordinates have 32 bits.
   const DVector from_light = points.origin - DVector(light);
   const double size = 3 * points.step * 0x1p31 + 3 * length(from_light);
@@ -86,10 +70,9 @@ double decide_points(const LightBounds& bounds, const Vector& light, const Asked
         simd::decide_points(from, bounds.texels(), first, last, work.dark.data(), &work.numbers[before]);
     asked += counts.asked;
     work.numbers.resize(before + counts.open);
-    take(points, work.numbers, before, work.open);
+    copy_points(points, work.numbers, before, work.open);
   }
-  const std::unique_lock lock =
-      mask.writing != nullptr ? std::unique_lock(*mask.writing) : std::unique_lock<std::mutex>();
+  const std::unique_lock lock = mask.hold();
   clear_dark(work.dark.data(), count, mask);
   const std::size_t decided = asked - work.numbers.size();
   counters.by_float += decided;

@@ -10,16 +10,8 @@ namespace {
 // such face is surely away from it.
 AskedPoints with_room_behind(const AskedPoints& points, const std::vector<std::uint32_t>& numbers) {
   AskedPoints some;
-  some.origin = points.origin;
-  some.step = points.step;
-  some.error = points.error + points.step;
-  for (auto* coordinates : {&some.x, &some.y, &some.z}) coordinates->resize(numbers.size());
-  some.faces.assign(numbers.size(), kNoOwnFace);
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    some.x[k] = points.x[numbers[k]];
-    some.y[k] = points.y[numbers[k]];
-    some.z[k] = points.z[numbers[k]];
-  }
+  copy_points(points, numbers, 0, some);
+  some.error += points.step;
   return some;
 }
 

@@ -36,32 +36,19 @@ void for_each_light(const LightWork& work, std::size_t stride, std::vector<std::
   });
 }
 
-std::uint8_t& byte_of(const MaskBit& mask, std::size_t point) {
-  return mask.lit[point * mask.stride + static_cast<std::size_t>(mask.bit / 8)];
-}
-
 // Those of `points` whose bit is set.
 std::vector<std::uint32_t> still_lit(const std::vector<std::uint32_t>& points, const MaskBit& mask) {
-  const std::scoped_lock lock(*mask.writing);
+  const std::unique_lock lock = mask.hold();
   std::vector<std::uint32_t> lit;
   for (const std::uint32_t i : points) {
-    if ((byte_of(mask, i) >> (mask.bit % 8) & 1) != 0) lit.push_back(i);
+    if (mask.is_lit(i)) lit.push_back(i);
   }
   return lit;
 }
 
 AskedPoints subset(const AskedPoints& points, const std::vector<std::uint32_t>& numbers) {
   AskedPoints some;
-  some.origin = points.origin;
-  some.step = points.step;
-  some.error = points.error;
-  for (const std::uint32_t i : numbers) {
-    some.x.push_back(points.x[i]);
-    some.y.push_back(points.y[i]);
-    some.z.push_back(points.z[i]);
-    some.faces.push_back(points.faces[i]);
-    some.samples.push_back(points.samples[i]);
-  }
+  copy_points(points, numbers, 0, some);
   return some;
 }
 
@@ -99,10 +86,9 @@ void clear_blocked(const LightWork& work, const SampleGrid& grid, const MovedPoi
                 return is_between(numbers[point], face, face_side);
               },
               scratch, &own, some_faces);
-          const std::scoped_lock lock(*mask.writing);
-          const auto bit = static_cast<std::uint8_t>(1u << (mask.bit % 8));
+          const std::unique_lock lock = mask.hold();
           for (std::size_t k = 0; k < lit.size(); ++k) {
-            if (lit[k] == 0) byte_of(mask, numbers[k]) &= static_cast<std::uint8_t>(~bit);
+            if (lit[k] == 0) mask.clear(numbers[k]);
           }
         };
 

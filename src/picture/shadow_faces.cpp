@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "map/face_planes.h"
+#include "picture/face_texels.h"
 #include "scene/reserve_pages.h"
 
 namespace facemap {
@@ -49,9 +50,7 @@ Range range_across(const Range& front, const Range& behind) {
 
 // First and last texel of a range, first | last << 16, as the kernels do it; the range must meet the raster.
 std::int32_t texels_of(const Range& range, int count) {
-  const float half = 0.5f * static_cast<float>(count), last = static_cast<float>(count - 1);
-  const auto texel = [&](float x) { return static_cast<std::int32_t>(std::clamp(x * half + half, 0.0f, last)); };
-  return texel(range.lower - simd::kShadowMargin) | texel(range.upper + simd::kShadowMargin) << 16;
+  return texel_of(range.lower - simd::kShadowMargin, count) | texel_of(range.upper + simd::kShadowMargin, count) << 16;
 }
 
 bool meets_raster(const Range& range) {

@@ -166,17 +166,13 @@ class LightPass {
   }
 
   void clear_blocked_places() {
-    const std::unique_lock lock = hold_mask();
+    const std::unique_lock lock = mask_.hold();
     const ShadowPoints& points = parts_.points;
     for (std::uint32_t first = 0; first < points.count(); first += 16) {
       for (std::uint32_t blocked = points.blocked_from(first); blocked != 0; blocked &= blocked - 1) {
-        clear(points.point_at(first + static_cast<std::uint32_t>(std::countr_zero(blocked))));
+        mask_.clear(points.point_at(first + static_cast<std::uint32_t>(std::countr_zero(blocked))));
       }
     }
-  }
-
-  std::unique_lock<std::mutex> hold_mask() const {
-    return mask_.writing != nullptr ? std::unique_lock(*mask_.writing) : std::unique_lock<std::mutex>();
   }
 
   void add_all_to_rest() {
@@ -187,13 +183,8 @@ class LightPass {
 
   void ask_rest() {
     const auto blocked = find_blocked_singly(scene_, light_, points_, parts_.rest, blocks_exactly_, &counters_);
-    const std::unique_lock lock = hold_mask();
-    for (const std::uint32_t point : blocked) clear(point);
-  }
-
-  void clear(std::size_t point) {
-    std::uint8_t& byte = mask_.lit[point * mask_.stride + static_cast<std::size_t>(mask_.bit / 8)];
-    byte = static_cast<std::uint8_t>(byte & ~(1u << (mask_.bit % 8)));
+    const std::unique_lock lock = mask_.hold();
+    for (const std::uint32_t point : blocked) mask_.clear(point);
   }
 
   const Scene& scene_;

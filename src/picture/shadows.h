@@ -41,6 +41,19 @@ struct MaskBit {
   std::size_t stride;         ///< bytes a point
   int bit;
   std::mutex* writing = nullptr;  ///< held while `lit` is written, if other lights write their bits at the same time
+
+  /// To be held while is_lit and clear are called.
+  std::unique_lock<std::mutex> hold() const {
+    return writing != nullptr ? std::unique_lock(*writing) : std::unique_lock<std::mutex>();
+  }
+  bool is_lit(std::size_t point) const { return (byte_of(point) >> (bit % 8) & 1) != 0; }
+  void clear(std::size_t point) const {
+    std::uint8_t& byte = byte_of(point);
+    byte = static_cast<std::uint8_t>(byte & ~(1u << (bit % 8)));
+  }
+
+ private:
+  std::uint8_t& byte_of(std::size_t point) const { return lit[point * stride + static_cast<std::size_t>(bit / 8)]; }
 };
 
 /// For every point whose bit is set in mask.asked: clears it in mask.lit if some kept face stands strictly between

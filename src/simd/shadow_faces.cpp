@@ -9,16 +9,10 @@
 #include <hwy/highway.h>
 
 #include "simd/dispatch.h"
+#include "simd/shadow_project-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace facemap::simd::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using DF = hn::CappedTag<float, 16>;
-using DU = hn::RebindToUnsigned<DF>;
-using DI = hn::RebindToSigned<DF>;
-using DD = hn::CappedTag<double, 8>;
-using DHalf = hn::Rebind<float, DD>;
 using VF = hn::Vec<DF>;
 using VI = hn::Vec<DI>;
 using VD = hn::Vec<DD>;
@@ -34,8 +28,8 @@ HWY_INLINE VD row_of(const double* row, VD x, VD y, VD z) {
 
 HWY_INLINE void project_some(const ShadowFrame& frame, const float* positions, float* places) {
   const DD d;
-  const DHalf half;
-  hn::Vec<DHalf> px, py, pz;
+  const DHalfF half;
+  hn::Vec<DHalfF> px, py, pz;
   hn::LoadInterleaved3(half, positions, px, py, pz);
   const auto x = hn::Sub(hn::PromoteTo(d, px), hn::Set(d, frame.light[0]));
   const auto y = hn::Sub(hn::PromoteTo(d, py), hn::Set(d, frame.light[1]));
@@ -67,15 +61,6 @@ void project_vertices(const ShadowFrame& frame, const float* positions, std::siz
 }
 
 // ---- faces
-
-// As in shadow_points.cpp.
-HWY_INLINE VI texel_of(VF coordinate, int count) {
-  const DF d;
-  const auto half = hn::Set(d, 0.5f * static_cast<float>(count));
-  const auto place = hn::Add(hn::Mul(coordinate, half), half);
-  const auto last = hn::Set(d, static_cast<float>(count - 1));
-  return hn::ConvertTo(DI(), hn::Min(hn::Max(place, hn::Zero(d)), last));
-}
 
 struct Places {
   VF u, v, w;

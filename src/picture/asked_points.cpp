@@ -1,0 +1,21 @@
+#include "picture/asked_points.h"
+
+namespace facemap {
+
+void copy_points(const AskedPoints& points, const std::vector<std::uint32_t>& numbers, std::size_t first,
+                 AskedPoints& some) {
+  some.origin = points.origin;
+  some.step = points.step;
+  some.error = points.error;
+  for (auto* coordinates : {&some.x, &some.y, &some.z}) coordinates->resize(numbers.size());
+  some.faces.resize(numbers.size());
+  for (std::size_t k = first; k < numbers.size(); ++k) {
+    const std::uint32_t i = numbers[k];
+    some.x[k] = points.x[i];
+    some.y[k] = points.y[i];
+    some.z[k] = points.z[i];
+    some.faces[k] = points.faces[i];
+  }
+}
+
+}  // namespace facemap
