@@ -7,7 +7,10 @@
 #include <facemap/face_map.h>
 #include <facemap/image.h>
 #include <facemap/instruction_set.h>
+#include <facemap/light.h>
+#include <facemap/material.h>
 #include <facemap/mesh.h>
+#include <facemap/model.h>
 #include <facemap/obj.h>
 #include <facemap/point_light.h>
 #include <facemap/projection.h>
@@ -16,5 +19,6 @@
 #include <facemap/scene.h>
 #include <facemap/space_vector.h>
 #include <facemap/surface_point.h>
+#include <facemap/texture.h>
 #include <facemap/turntable.h>
 #include <facemap/vector.h>

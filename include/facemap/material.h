@@ -1,5 +1,6 @@
 #pragma once
 
+#include <facemap/texture.h>
 #include <facemap/vector.h>
 
 #include <map>
@@ -7,11 +8,21 @@
 
 namespace facemap {
 
-/// A material of an MTL file, read and kept; shading does not use it yet.
+/// What a surface is made of, as an MTL file or a glTF model states it; shading does not use it yet.
 struct Material {
+  enum class Kind {
+    Phong,       ///< diffuse and Blinn-Phong highlights (MTL)
+    MetalRough,  ///< metallic and rough (glTF; MTL with Pr or Pm): `diffuse` is the base colour
+  };
+  enum class Alpha {
+    Opaque,
+    Mask,   ///< cut out where opacity times map is below `alpha_cutoff`
+    Blend,  ///< translucent
+  };
+
   std::string name;                             ///< newmtl
   Vector ambient{0};                            ///< Ka
-  Vector diffuse{0.8f};                         ///< Kd
+  Vector diffuse{0.8f};                         ///< Kd, linear RGB
   Vector specular{0};                           ///< Ks
   Vector emission{0};                           ///< Ke
   float shininess = 0;                          ///< Ns
@@ -19,6 +30,22 @@ struct Material {
   float opacity = 1;                            ///< d, or 1 - Tr
   int illumination = 2;                         ///< illum
   std::map<std::string, std::string> textures;  ///< map_Kd and the like: statement -> file name as written
+
+  Kind kind = Kind::Phong;
+  float metallic = 0;   ///< 0..1
+  float roughness = 1;  ///< 0..1
+  Alpha alpha = Alpha::Opaque;
+  float alpha_cutoff = 0.5f;
+  bool is_double_sided = true;
+  bool is_unlit = false;     ///< its colour is what is seen, whatever the lights
+  TextureUse diffuse_map;    ///< times `diffuse`, sRGB; its alpha times `opacity` unless there is an opacity_map
+  TextureUse opacity_map;    ///< times `opacity`
+  TextureUse specular_map;   ///< times `specular`, sRGB
+  TextureUse emission_map;   ///< times `emission`, sRGB
+  TextureUse metallic_map;   ///< times `metallic`
+  TextureUse roughness_map;  ///< times `roughness`
+  TextureUse normal_map;     ///< tangent space, +y up the v axis
+  TextureUse bump_map;       ///< heights
 };
 
 }  // namespace facemap

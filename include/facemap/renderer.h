@@ -3,6 +3,7 @@
 #include <facemap/camera.h>
 #include <facemap/color.h>
 #include <facemap/image.h>
+#include <facemap/light.h>
 #include <facemap/point_light.h>
 #include <facemap/scene.h>
 
@@ -21,13 +22,6 @@ struct View {
   Vector up{0, 1, 0};
   double field_angle = 0.87266462599716477;  ///< radians (50 degrees)
   ProjectionKind projection = ProjectionKind::Surface;
-};
-
-/// A point light as a user states it. Radiance = colour * intensity * cos [/ distance^2].
-struct Light {
-  Vector position{0};
-  Color color{1, 1, 1};
-  float intensity = 1;
 };
 
 /// A view in which the scene's bounding sphere just fits the field angle (50 degrees), from direction (0.5, 0.6, 1).

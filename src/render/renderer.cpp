@@ -26,6 +26,7 @@ void validate(const Renderer::Options& options, const std::vector<Light>& lights
   if (options.samples < 1 || options.samples > 16) throw Error("samples a side of a pixel must be 1 to 16");
   if (!is_valid(options.background)) throw Error("background must be finite and not negative");
   for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (lights[i].kind != Light::Kind::Point) throw Error("light " + std::to_string(i) + " is not a point light");
     const Vector& p = lights[i].position;
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
       throw Error("position of light " + std::to_string(i) + " is not finite");
