@@ -25,6 +25,7 @@ class LoadError : public Error {
     NoFaces,
     TooLarge,
     BadEncoding,
+    BadImage,  ///< a picture that cannot be decoded
   };
 
   /// `line` counts from 1; 0 means that no line is to blame.

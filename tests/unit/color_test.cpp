@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "render/srgb.h"
+#include "image/srgb.h"
 
 namespace {
 

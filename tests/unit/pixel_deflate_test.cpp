@@ -1,4 +1,4 @@
-#include "render/pixel_deflate.h"
+#include "image/pixel_deflate.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "render/huffman.h"
+#include "image/huffman.h"
 #include "support/random.h"
 
 namespace facemap {

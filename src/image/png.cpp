@@ -7,10 +7,10 @@
 #include <memory>
 #include <vector>
 
+#include "image/atomic_file.h"
+#include "image/pixel_deflate.h"
+#include "image/srgb.h"
 #include "parallel/executor.h"
-#include "render/atomic_file.h"
-#include "render/pixel_deflate.h"
-#include "render/srgb.h"
 
 namespace facemap {
 namespace {

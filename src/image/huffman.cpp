@@ -1,4 +1,4 @@
-#include "render/huffman.h"
+#include "image/huffman.h"
 
 #include <algorithm>
 #include <vector>

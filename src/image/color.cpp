@@ -6,8 +6,8 @@
 #include <cstring>
 #include <limits>
 
+#include "image/srgb.h"
 #include "math/elementary.h"
-#include "render/srgb.h"
 
 namespace facemap {
 namespace {

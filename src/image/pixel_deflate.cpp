@@ -1,11 +1,11 @@
-#include "render/pixel_deflate.h"
+#include "image/pixel_deflate.h"
 
 #include <algorithm>
 #include <bit>
 #include <cstring>
 #include <span>
 
-#include "render/huffman.h"
+#include "image/huffman.h"
 
 namespace facemap {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/atomic_file.h"
+#include "image/atomic_file.h"
 
 #include <facemap/error.h>
 #include <fcntl.h>

@@ -4,7 +4,7 @@
 #include <bit>
 #include <string>
 
-#include "render/atomic_file.h"
+#include "image/atomic_file.h"
 
 namespace facemap {
 namespace {
