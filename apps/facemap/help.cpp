@@ -70,6 +70,8 @@ std::string program_help(const std::vector<Command>& commands) {
       "  facemap COMMAND --help    what a command does, its options, examples\n"
       "  facemap --version         the version\n"
       "  facemap --help-markdown   all of this as a page (docs/cli.md)\n"
+      "  facemap --man             all of this as a manual page\n"
+      "  facemap --completion SHELL  completions for bash, zsh or fish\n"
       "\n"
       "The environment variable FACEMAP_TARGET names the instruction set to use: scalar, sse4, avx2 or avx512.\n"
       "Without it the processor's best is used. Pictures are the same.\n"

@@ -85,10 +85,15 @@ Command map_command() {
       {"--size", "WxH", "1024x1024", "texels; the legend comes on top", into(a.size, parse_size)},
       {"--field-angle", "DEG", "360", "degrees across the shorter side", into(a.field_angle, parse_degrees)},
       {"--look-at", "X,Y,Z", "the model's centre", "the point in the middle", into(a.look_at, parse_vector)},
-      {"--builder", "KIND", "cover", "cover (exact) or fill (as published)",
+      {"--builder",
+       "KIND",
+       "cover",
+       "cover (exact) or fill (as published)",
        [&a](const std::string& text) {
          a.builder = parse_choice(text, {"cover", "fill"}) ? Builder::Fill : Builder::Cover;
-       }},
+       },
+       false,
+       {"cover", "fill"}},
       {"--threads", "N", "0", "threads at work; 0: as many as there are processors", into(a.threads, parse_threads)},
       {"-q,--quiet", "", "", "no warnings, no counts", [&a](const std::string&) { a.quiet = true; }},
   };

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <map>
 
+#include "completions.h"
 #include "help.h"
+#include "man_page.h"
 #include "usage_error.h"
 
 namespace facemap::program {
@@ -83,7 +85,7 @@ void set_options(const Command& command, const Words& words) {
   for (const Option& option : command.options) {
     const auto found = words.find(&option);
     if (found == words.end()) continue;
-    const std::string name = option.flags.substr(option.flags.find(',') + 1);
+    const std::string name = name_of(option);
     if (found->second.size() > 1 && !option.repeats) throw UsageError(name + " is given more than once");
     for (const std::string& word : found->second) {
       try {
@@ -113,7 +115,16 @@ void parse_options(const Command& command, int argc, const char* const* argv) {
 
 bool asks_for_help(const std::string& word) { return word == "--help" || word == "-h"; }
 
+std::string completion_for(const std::vector<std::string>& words, const std::vector<Command>& commands) {
+  if (words.size() == 2 && words[1] == "bash") return bash_completion(commands);
+  if (words.size() == 2 && words[1] == "zsh") return zsh_completion(commands);
+  if (words.size() == 2 && words[1] == "fish") return fish_completion(commands);
+  throw UsageError("--completion: name a shell: bash, zsh or fish");
+}
+
 }  // namespace
+
+std::string name_of(const Option& option) { return option.flags.substr(option.flags.find(',') + 1); }
 
 const Command* parse_command_line(const std::vector<Command>& commands, int argc, const char* const* argv,
                                   std::string& answer) {
@@ -125,6 +136,10 @@ const Command* parse_command_line(const std::vector<Command>& commands, int argc
     answer = "facemap " FACEMAP_VERSION "\n";
   } else if (words[0] == "--help-markdown") {
     answer = markdown_help(commands);
+  } else if (words[0] == "--man") {
+    answer = man_page(commands);
+  } else if (words[0] == "--completion") {
+    answer = completion_for(words, commands);
   } else {
     const auto command =
         std::find_if(commands.begin(), commands.end(), [&](const Command& c) { return c.name == words[0]; });

@@ -14,9 +14,13 @@ struct Option {
   std::string help;
   std::function<void(const std::string&)> set;  ///< throws UsageError; a switch gets ""
   bool repeats = false;
+  std::vector<std::string> choices = {};  ///< the words that its value may be, if they are known
 
   bool is_argument() const { return flags.front() != '-'; }
 };
+
+/// The flag's long name, or the argument's.
+std::string name_of(const Option& option);
 
 /// A command line that works, and what it does.
 struct Example {
@@ -40,7 +44,7 @@ std::function<void(const std::string&)> into(Field& field, Parse parse) {
 }
 
 /// Reads the words after the program's name, sets the options of the command that they name and returns it;
-/// nullptr if they asked for help or the version, which is then in `answer`. Throws UsageError.
+/// nullptr if they asked for help, the version or the like, which is then in `answer`. Throws UsageError.
 const Command* parse_command_line(const std::vector<Command>& commands, int argc, const char* const* argv,
                                   std::string& answer);
 

@@ -27,9 +27,14 @@ std::function<void(const std::string&)> append_to(std::vector<Value>& values, Pa
   return [&values, parse](const std::string& text) { values.push_back(parse(text)); };
 }
 
+/// A row whose value is one of `choices`, in the order of the field's enumerators.
 template <typename Field>
-std::function<void(const std::string&)> choose(Field& field, std::vector<std::string> choices) {
-  return [&field, choices](const std::string& text) { field = static_cast<Field>(parse_choice(text, choices)); };
+Option one_of(const std::string& flags, const std::string& default_text, const std::string& help, Field& field,
+              const std::vector<std::string>& choices) {
+  const auto set = [&field, choices](const std::string& text) {
+    field = static_cast<Field>(parse_choice(text, choices));
+  };
+  return {flags, "KIND", default_text, help, set, false, choices};
 }
 
 fs::path parse_path(const std::string& text) { return text; }
@@ -48,10 +53,11 @@ std::vector<Option> view_options(RenderArguments& a) {
        "the field of view in degrees: across the shorter side (surface, up to 360) or from bottom to top (plane, "
        "below 180)",
        append_to(a.frames.field_angles, parse_degrees), true},
-      {"--projection", "KIND", "surface",
-       "surface: the paper's, distance from the middle is proportional to the angle; plane: perspective, straight "
-       "lines stay straight",
-       choose(a.frames.projection, {"surface", "plane"})},
+      one_of(
+          "--projection", "surface",
+          "surface: the paper's, distance from the middle is proportional to the angle; plane: perspective, straight "
+          "lines stay straight",
+          a.frames.projection, {"surface", "plane"}),
       {"--turntable", "N", "",
        "N pictures: the camera goes once around the point in the middle, about the direction that points up",
        into(a.frames.turntable, [](const std::string& text) { return parse_whole_number(text, 1, kMaxFrames); })},
@@ -63,8 +69,8 @@ std::vector<Option> light_options(RenderArguments& a) {
       {"--light", "X,Y,Z[,R,G,B]", "eight made up",
        "a point light and its linear colour, 1,1,1 if left out; once a light", append_to(a.lights, parse_light), true},
       {"--intensity", "FACTOR", "1", "multiplies the colour of every light", into(a.intensity, parse_number)},
-      {"--falloff", "KIND", "constant", "how light fades with distance: constant or inverse-square",
-       choose(a.options.falloff, {"constant", "inverse-square"})},
+      one_of("--falloff", "constant", "how light fades with distance: constant or inverse-square", a.options.falloff,
+             {"constant", "inverse-square"}),
       {"--background", "COLOR", "0,0,0", "where no face is: linear r,g,b or sRGB #rrggbb",
        into(a.options.background, parse_color)},
   };
@@ -77,13 +83,18 @@ std::vector<Option> quality_options(RenderArguments& a) {
        "rays a pixel: 1; a grid such as 4x4; edges for one ray and 4x4 where a pixel may hold an edge (edges:8 for "
        "8x8)",
        into(a.samples, parse_samples)},
-      {"--normals", "KIND", "smooth", "smooth (where the file has normals or smoothing groups) or flat",
-       choose(a.options.normals, {"flat", "smooth"})},
-      {"--terminator-fix", "on|off", "on", "keeps coarse smooth surfaces from shadowing themselves in facets",
-       into(a.options.shadow_terminator_fix, on_off)},
-      {"--builder", "KIND", "cover",
-       "how maps are filled: cover is exact; fill is as published and can miss a face at its edge",
-       choose(a.options.builder, {"cover", "fill"})},
+      one_of("--normals", "smooth", "smooth (where the file has normals or smoothing groups) or flat",
+             a.options.normals, {"flat", "smooth"}),
+      {"--terminator-fix",
+       "on|off",
+       "on",
+       "keeps coarse smooth surfaces from shadowing themselves in facets",
+       into(a.options.shadow_terminator_fix, on_off),
+       false,
+       {"off", "on"}},
+      one_of("--builder", "cover",
+             "how maps are filled: cover is exact; fill is as published and can miss a face at its edge",
+             a.options.builder, {"cover", "fill"}),
   };
 }
 
@@ -92,11 +103,11 @@ std::vector<Option> work_options(RenderArguments& a) {
   return {
       {"--threads", "N", "0", "threads at work; 0: as many as there are processors",
        into(a.options.threads, parse_threads)},
-      {"--strategy", "KIND", "auto",
-       "lists: the paper's, a map of faces for each light; transposed: the faces run over a map of the points in "
-       "sight; "
-       "auto: what promises to be faster",
-       choose(a.options.strategy, {"auto", "lists", "transposed"})},
+      one_of("--strategy", "auto",
+             "lists: the paper's, a map of faces for each light; transposed: the faces run over a map of the points in "
+             "sight; "
+             "auto: what promises to be faster",
+             a.options.strategy, {"auto", "lists", "transposed"}),
       {"--map-memory", "SIZE", "no limit", "what maps and working memory may take, as far as possible: 512M, 2G",
        into(a.options.map_memory, parse_memory)},
   };
@@ -127,11 +138,15 @@ std::vector<Option> render_options(RenderArguments& a) {
                        "inf for none), "
                        "lights (uint8, one bit a light, 1 is lit); once a plane; {n} as in -o",
                        [&a](const std::string& text) { add_plane(a.files, text); }, true},
-                      {"--stats", "FORMAT", "",
+                      {"--stats",
+                       "FORMAT",
+                       "",
                        "prints times, memory, counts and the way taken on standard output: json or text",
                        [&a](const std::string& text) {
                          a.stats = parse_choice(text, {"json", "text"}) == 0 ? StatsFormat::Json : StatsFormat::Text;
-                       }},
+                       },
+                       false,
+                       {"json", "text"}},
                       {"-q,--quiet", "", "", "no warnings, no made-up flags, no progress",
                        [&a](const std::string&) { a.quiet = true; }},
                   });
