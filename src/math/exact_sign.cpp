@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "math/exact_stage.h"
 #include "math/expressions.h"
 #include "math/numbers.h"
 #include "math/plain_signs.h"
@@ -19,51 +20,6 @@ constexpr double kPlainlySharp = 0x1p-43;
 
 constexpr const char* kNoPoint = "the ray of a surface point does not meet the plane of its face";
 
-// ---- which inputs an expression has ----------------------------------------------------------------------
-
-ExponentRange lengths_of(const Triangle& f, const Vector& O) { return ExponentRange::of(f[0], f[1], f[2], O); }
-
-ExponentRange lengths_of(const TruePoint& p, const Vector& L) {
-  return ExponentRange::of(p.face[0], p.face[1], p.face[2], p.K, L);
-}
-
-ExponentRange lengths_of(const GivenPoint& p, const Vector& L) {
-  ExponentRange range = ExponentRange::of(p.P, L);
-  if (p.on_face != nullptr) {
-    for (const Vector& corner : *p.on_face) range.include(corner);
-  }
-  range.include(p.tolerance);
-  return range;
-}
-
-template <class Point>
-ExponentRange lengths_of(const Triangle& G, const Point& p, const Vector& L) {
-  ExponentRange range = lengths_of(p, L);
-  for (const Vector& corner : G) range.include(corner);
-  return range;
-}
-
-ExponentRange directions_of(const TruePoint& p) { return ExponentRange::of(p.d); }
-ExponentRange directions_of(const GivenPoint&) { return ExponentRange::of(); }
-
-// ---- stages ---------------------------------------------------------------------------------------------
-
-void count(bool in_double, Counters* counters) {
-  if (counters != nullptr) ++(in_double ? counters->by_double : counters->by_exact);
-}
-
-// Whether s det(a - O, b - O, d) >= 0 for each edge; clears `strictly_inside` where one is 0.
-template <class Numbers, class T>
-bool is_within_edges(const Numbers& numbers, const Triangle& f, int s, const Vector& O, const Vec3<T>& d,
-                     bool* strictly_inside) {
-  for (int i = 0; i < 3; ++i) {
-    const int sign = edge(numbers, f[i], f[(i + 1) % 3], O, d).sign();
-    if (s * sign < 0) return false;
-    if (sign == 0) *strictly_inside = false;
-  }
-  return true;
-}
-
 // Strictly beyond G's plane, and within the cone of its edges. `s` is that of G times the sign of the point's w.
 template <class Numbers, class Point>
 bool is_behind(const Numbers& numbers, const Triangle& G, int s, const Vector& L, const Point& point) {
@@ -73,32 +29,22 @@ bool is_behind(const Numbers& numbers, const Triangle& G, int s, const Vector& L
   return is_within_edges(numbers, G, s, L, point.from(numbers, L), &strictly_inside);
 }
 
-template <class Numbers>
-bool blocks_in(const Numbers& numbers, const Triangle& G, int s_G, const Vector& L, const TruePoint& p) {
-  return is_behind(numbers, G, p.s > 0 ? s_G : -s_G, L, point_on_ray(numbers, p));
-}
-
-template <class Numbers>
-bool blocks_in(const Numbers& numbers, const Triangle& G, int s_G, const Vector& L, const GivenPoint& p) {
-  if (p.tolerance > 0 && outside_tolerance(numbers, G, p).sign() <= 0) return false;
-  if (p.on_face == nullptr) return is_behind(numbers, G, s_G, L, FloatPoint{p.P});
-  return is_behind(numbers, G, s_G, L, projected_point(numbers, p.P, *p.on_face));
-}
-
 template <class Point>
 bool blocks_staged(const Triangle& G, int s_G, const Vector& L, const Point& point, Counters* counters) {
   if (s_G == 0) return false;
   const Verdict in_double = plain::blocks(G, s_G, L, point);
-  count(in_double != Verdict::Unknown, counters);
+  count_stage(in_double != Verdict::Unknown, counters);
   if (in_double != Verdict::Unknown) return in_double == Verdict::Yes;
-  return in_integers(lengths_of(G, point, L), directions_of(point),
-                     [&](const auto& numbers) { return blocks_in(numbers, G, s_G, L, point); });
+  return in_integers(lengths_of(G, point, L), directions_of(point), [&](const auto& numbers) {
+    return blocks_rational(numbers, G, s_G, point,
+                           [&](const auto& P, int s) { return is_behind(numbers, G, s, L, P); });
+  });
 }
 
 // Sign of depth_difference.
 int depth_sign(const Triangle& face1, const Triangle& face2, const Vector& O, const Vector& d, Counters* counters) {
   const int in_double = plain::depth_difference(face1, face2, O, d);
-  count(in_double != kUnknownSign, counters);
+  count_stage(in_double != kUnknownSign, counters);
   if (in_double != kUnknownSign) return in_double;
   ExponentRange lengths = lengths_of(face1, O);
   for (const Vector& corner : face2) lengths.include(corner);
@@ -185,7 +131,7 @@ bool is_degenerate(const Vector& a, const Vector& b, const Vector& c) {
 
 int side(const Triangle& face, const Vector& O, Counters* counters) {
   const int in_double = plain::side(face, O);
-  count(in_double != kUnknownSign, counters);
+  count_stage(in_double != kUnknownSign, counters);
   if (in_double != kUnknownSign) return in_double;
   return in_integers(lengths_of(face, O), ExponentRange(),
                      [&](const auto& numbers) { return determinant(numbers, face, normal(numbers, face), O).sign(); });
@@ -194,7 +140,7 @@ int side(const Triangle& face, const Vector& O, Counters* counters) {
 Covering covers(const Triangle& face, int s, const Vector& O, const Vector& d, Counters* counters) {
   if (s == 0 || (d.x == 0 && d.y == 0 && d.z == 0)) return {};
   const Verdict in_double = plain::covers(face, s, O, d);
-  count(in_double != Verdict::Unknown, counters);
+  count_stage(in_double != Verdict::Unknown, counters);
   if (in_double != Verdict::Unknown) return {in_double == Verdict::Yes, in_double == Verdict::Yes};
   return in_integers(lengths_of(face, O), ExponentRange::of(d), [&](const auto& numbers) {
     bool strictly_inside = true;
@@ -218,7 +164,7 @@ bool blocks(const Triangle& G, int s_G, const Vector& L, const GivenPoint& point
 
 bool reaches_beyond(const Triangle& F, const Triangle& G, int s_G, Counters* counters) {
   const Verdict in_double = plain::reaches_beyond(F, G, s_G);
-  count(in_double != Verdict::Unknown, counters);
+  count_stage(in_double != Verdict::Unknown, counters);
   if (in_double != Verdict::Unknown) return in_double == Verdict::Yes;
   ExponentRange lengths = ExponentRange::of(F[0], F[1], F[2]);
   for (const Vector& corner : G) lengths.include(corner);

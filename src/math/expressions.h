@@ -78,6 +78,12 @@ auto projected_point(const Numbers& numbers, const Vector& P, const Triangle& fa
   return RationalPoint{P, dot(n, n), minus_height * n};
 }
 
+/// w det(a - P, b - P, d) = ((b - a) x w (P - a)) . d, for a point as above.
+template <class Numbers, class Point, class T>
+auto edge_along(const Numbers& numbers, const Vector& a, const Vector& b, const Point& point, const Vec3<T>& d) {
+  return dot(cross(numbers.difference(b, a), point.from(numbers, a)), d);
+}
+
 /// How far P is from G's plane beyond the tolerance: (n . (P - a))^2 - tolerance^2 n . n
 template <class Numbers>
 auto outside_tolerance(const Numbers& numbers, const Triangle& G, const GivenPoint& p) {

@@ -3,11 +3,12 @@
 #include <facemap/mesh.h>
 #include <facemap/point_light.h>
 #include <facemap/surface_point.h>
-#include <gmpxx.h>
 
 #include <array>
 #include <cstdint>
 #include <vector>
+
+#include "support/big_numbers.h"
 
 /// The referee: which face is nearest, whether a point is lit, by asking every face of a mesh. It has its own
 /// arithmetic and its own reading of the contract and shares no code with src/; it knows no map.
@@ -21,10 +22,6 @@ using facemap::kNoFace;
 using facemap::Mesh;
 using facemap::SurfacePoint;
 using facemap::Vector;
-
-struct BigVector {
-  mpz_class x, y, z;
-};
 
 /// The end of a segment from O, exactly, and rounded: P - O = X / w, w > 0, in units of 2^-149. `rounded` is
 /// within 2^-50 of it, relative, component by component; NaN where doubles may overflow or underflow.
