@@ -2,10 +2,12 @@
 
 #include <facemap/camera.h>
 #include <facemap/color.h>
+#include <facemap/compare.h>
 #include <facemap/error.h>
 #include <facemap/face.h>
 #include <facemap/face_map.h>
 #include <facemap/image.h>
+#include <facemap/image_file.h>
 #include <facemap/instruction_set.h>
 #include <facemap/light.h>
 #include <facemap/material.h>

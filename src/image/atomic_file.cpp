@@ -1,6 +1,7 @@
 #include "image/atomic_file.h"
 
 #include <facemap/error.h>
+#include <facemap/image_file.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -86,6 +87,10 @@ void write_whole_file(const std::filesystem::path& path, const void* bytes, std:
   AtomicFile file(path);
   file.write(bytes, size);
   file.commit();
+}
+
+void write_file(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) {
+  write_whole_file(path, bytes.data(), bytes.size());
 }
 
 }  // namespace facemap

@@ -100,6 +100,11 @@ void encode_srgb(const Color* colors, std::size_t count, std::uint8_t* bytes) {
   }
 }
 
+double srgb_from_linear(double linear) {
+  if (linear <= 0.0031308) return 12.92 * linear;
+  return 1.055 * elementary::pow(linear, 1 / 2.4) - 0.055;
+}
+
 Color Color::from_24_bit(std::uint32_t rgb) {
   const auto channel = [rgb](int shift) { return static_cast<float>(linear_from_srgb((rgb >> shift & 255) / 255.0)); };
   return {channel(16), channel(8), channel(0)};

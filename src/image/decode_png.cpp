@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "image/image_limits.h"
+#include "image/png_chunks.h"
 
 namespace facemap {
 namespace {
@@ -128,8 +129,13 @@ Image decode(std::span<const std::uint8_t> bytes, const std::string& name, std::
 }  // namespace
 
 bool is_png(std::span<const std::uint8_t> bytes) noexcept {
-  constexpr std::uint8_t kSignature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-  return bytes.size() >= 8 && std::equal(kSignature, kSignature + 8, bytes.begin());
+  return bytes.size() >= sizeof png::kSignature &&
+         std::equal(std::begin(png::kSignature), std::end(png::kSignature), bytes.begin());
+}
+
+bool is_png_16(std::span<const std::uint8_t> bytes) noexcept {
+  constexpr std::size_t kDepth = 24;  // its place
+  return is_png(bytes) && bytes.size() > kDepth && bytes[kDepth] == 16;
 }
 
 DecodedImage decode_png(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {

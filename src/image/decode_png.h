@@ -10,6 +10,7 @@
 namespace facemap {
 
 bool is_png(std::span<const std::uint8_t> bytes) noexcept;
+bool is_png_16(std::span<const std::uint8_t> bytes) noexcept;  ///< of 16 bits a channel
 
 /// See decode_image().
 DecodedImage decode_png(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);

@@ -1,21 +1,32 @@
 #include <facemap/error.h>
-#include <facemap/image.h>
 
 #include <bit>
+#include <cstring>
 #include <string>
 
 #include "image/atomic_file.h"
+#include "image/plane.h"
 
 namespace facemap {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "the arrays below are written as they lie in memory");
 
-/// NumPy's .npy, version 1.0: magic, version, length of the header (little-endian), the header, padded with
-/// spaces and ended by a newline so that the data begins at a multiple of 64 bytes.
-std::string npy_header(const std::string& type, const std::string& shape) {
+const char* type_name(std::span<const float>) { return "<f4"; }
+const char* type_name(std::span<const std::int32_t>) { return "<i4"; }
+const char* type_name(std::span<const std::uint16_t>) { return "<u2"; }
+const char* type_name(std::span<const std::uint8_t>) { return "|u1"; }
+
+/// Magic, version, length of the header (little-endian), the header, padded with spaces and ended by a newline so that
+/// the data begins at a multiple of 64 bytes.
+std::string npy_header(const PlaneView& plane, NpyShape shape) {
+  check_plane("NPY", plane);
   constexpr std::size_t kPrefix = 10, kAlignment = 64;
-  std::string dictionary = "{'descr': '" + type + "', 'fortran_order': False, 'shape': (" + shape + "), }";
+  const std::string type = std::visit([](const auto& values) { return type_name(values); }, plane.values);
+  std::string dictionary = "{'descr': '" + type + "', 'fortran_order': False, 'shape': (";
+  dictionary += std::to_string(plane.height) + ", " + std::to_string(plane.width);
+  if (plane.channels > 1 || shape == NpyShape::AlwaysThree) dictionary += ", " + std::to_string(plane.channels);
+  dictionary += "), }";
   dictionary.append((kAlignment - (kPrefix + dictionary.size() + 1) % kAlignment) % kAlignment, ' ');
   dictionary += '\n';
   std::string header = "\x93NUMPY";
@@ -23,34 +34,50 @@ std::string npy_header(const std::string& type, const std::string& shape) {
   return header + dictionary;
 }
 
-template <typename Value>
-void write_plane(const std::filesystem::path& path, const std::string& type, const Image& image, int values_a_pixel,
-                 const std::vector<Value>& plane, const char* name) {
-  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-  if (plane.size() != pixels * static_cast<std::size_t>(values_a_pixel)) {
-    throw Error(path.string() + ": the image has no plane of " + name);
+std::span<const std::byte> bytes_of(const PlaneView& plane) {
+  return std::visit([](const auto& values) { return std::as_bytes(values); }, plane.values);
+}
+
+/// The plane. An image without it is an error that names the file.
+PlaneView plane_for(const std::filesystem::path& path, PlaneView (*plane_of)(const Image&), const Image& image) {
+  try {
+    return plane_of(image);
+  } catch (const Error& error) {
+    throw Error(path.string() + ": " + error.what());
   }
-  std::string shape = std::to_string(image.height) + ", " + std::to_string(image.width);
-  if (sizeof(Value) == 1) shape += ", " + std::to_string(values_a_pixel);
-  const std::string header = npy_header(type, shape);
+}
+
+/// Without a copy of the plane.
+void write_npy(const PlaneView& plane, const std::filesystem::path& path, NpyShape shape) {
+  const std::string header = npy_header(plane, shape);
+  const std::span<const std::byte> values = bytes_of(plane);
   AtomicFile file(path);
   file.write(header.data(), header.size());
-  file.write(plane.data(), plane.size() * sizeof(Value));
+  file.write(values.data(), values.size());
   file.commit();
 }
 
 }  // namespace
 
+std::vector<std::uint8_t> encode_npy(const PlaneView& plane, NpyShape shape) {
+  const std::string header = npy_header(plane, shape);
+  const std::span<const std::byte> values = bytes_of(plane);
+  std::vector<std::uint8_t> bytes(header.size() + values.size());
+  std::memcpy(bytes.data(), header.data(), header.size());
+  std::memcpy(bytes.data() + header.size(), values.data(), values.size());
+  return bytes;
+}
+
 void write_ids_npy(const Image& image, const std::filesystem::path& path) {
-  write_plane(path, "<i4", image, 1, image.ids, "ids");
+  write_npy(plane_for(path, id_plane, image), path, NpyShape::ByChannels);
 }
 
 void write_depths_npy(const Image& image, const std::filesystem::path& path) {
-  write_plane(path, "<f4", image, 1, image.depths, "depths");
+  write_npy(plane_for(path, depth_plane, image), path, NpyShape::ByChannels);
 }
 
 void write_lights_npy(const Image& image, const std::filesystem::path& path) {
-  write_plane(path, "|u1", image, image.light_bytes(), image.lights, "lights");
+  write_npy(plane_for(path, light_plane, image), path, NpyShape::AlwaysThree);
 }
 
 }  // namespace facemap

@@ -9,6 +9,7 @@
 
 #include "image/atomic_file.h"
 #include "image/pixel_deflate.h"
+#include "image/png_chunks.h"
 #include "image/srgb.h"
 #include "parallel/executor.h"
 
@@ -17,41 +18,10 @@ namespace {
 
 constexpr std::size_t kBandBytes = std::size_t{1} << 18;  ///< about, of rows that a thread compresses at a time
 
-/// Some rows, compressed, and what the stream's sums need of them.
-struct Band {
-  std::vector<std::uint8_t> chunk;  ///< of PNG: IDAT
-  uLong adler = 1;                  ///< of the rows
-  std::size_t bytes = 0;            ///< of the rows
-};
-
-void append_32(std::vector<std::uint8_t>& bytes, std::uint32_t value) {
-  for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<std::uint8_t>(value >> shift));
-}
-
-/// Begins a chunk of PNG. finish_chunk() sets its length, of what was appended to `bytes` meanwhile, and adds its sum.
-void begin_chunk(std::vector<std::uint8_t>& bytes, const char* type) {
-  append_32(bytes, 0);
-  bytes.insert(bytes.end(), type, type + 4);
-}
-
-void finish_chunk(std::vector<std::uint8_t>& bytes, std::size_t begin) {
-  const std::size_t length = bytes.size() - begin - 8;
-  if (length > 0x7fffffff) throw Error("PNG: the image is too large");
-  for (int i = 0; i < 4; ++i) bytes[begin + i] = static_cast<std::uint8_t>(length >> (24 - 8 * i));
-  append_32(bytes, static_cast<std::uint32_t>(crc32_z(0, bytes.data() + begin + 4, length + 4)));
-}
-
-void append_chunk(std::vector<std::uint8_t>& bytes, const char* type, const std::vector<std::uint8_t>& data) {
-  const std::size_t begin = bytes.size();
-  begin_chunk(bytes, type);
-  bytes.insert(bytes.end(), data.begin(), data.end());
-  finish_chunk(bytes, begin);
-}
-
 /// Makes bands. One a thread: it keeps its memory.
 class BandMaker {
  public:
-  Band make(const Image& image, std::size_t first_row, std::size_t end_row) {
+  png::Band make(const Image& image, std::size_t first_row, std::size_t end_row) {
     const auto width = static_cast<std::size_t>(image.width);
     const std::size_t stride = 1 + 3 * width, above = first_row > 0 ? 1 : 0;
     rows_.resize((above + end_row - first_row) * stride + PixelDeflater::kPadding);
@@ -61,14 +31,14 @@ class BandMaker {
       encode_srgb(image.pixels.data() + y * width, width, row + 1);
     }
     const std::uint8_t* const first = rows_.data() + above * stride;
-    Band band;
+    png::Band band;
     band.bytes = (end_row - first_row) * stride;
     band.adler = adler32_z(1, first, band.bytes);
-    begin_chunk(band.chunk, "IDAT");
+    png::begin_chunk(band.chunk, "IDAT");
     if (first_row == 0) band.chunk.insert(band.chunk.end(), {0x78, 0x01});  // zlib's header: 32 KiB window, fastest
     const bool is_last = end_row == static_cast<std::size_t>(image.height);
     deflater_.compress(first, end_row - first_row, width, above > 0, is_last, band.chunk);
-    if (!is_last) finish_chunk(band.chunk, 0);
+    if (!is_last) png::finish_chunk(band.chunk, 0);
     return band;
   }
 
@@ -77,11 +47,11 @@ class BandMaker {
   PixelDeflater deflater_;
 };
 
-std::vector<Band> make_bands(const Image& image, int threads) {
+std::vector<png::Band> make_bands(const Image& image, int threads) {
   const auto height = static_cast<std::size_t>(image.height);
   const std::size_t rows =
       std::clamp<std::size_t>(kBandBytes / (1 + 3 * static_cast<std::size_t>(image.width)), 1, height);
-  std::vector<Band> bands((height + rows - 1) / rows);
+  std::vector<png::Band> bands((height + rows - 1) / rows);
   const Executor executor(bands.size() == 1 ? 1 : threads);
   std::vector<std::unique_ptr<BandMaker>> makers(static_cast<std::size_t>(executor.threads()));
   executor.for_each(bands.size(), [&](std::size_t i, int worker) {
@@ -98,27 +68,10 @@ std::vector<std::uint8_t> encode_png(const Image& image, int threads) {
   const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   if (image.width <= 0 || image.height <= 0 || image.pixels.size() != pixels)
     throw Error("PNG: the image has no pixels");
-  std::vector<Band> bands = make_bands(image, threads);
-  uLong adler = bands[0].adler;
-  for (std::size_t i = 1; i < bands.size(); ++i) {
-    adler = adler32_combine(adler, bands[i].adler, static_cast<z_off_t>(bands[i].bytes));
-  }
-  append_32(bands.back().chunk, static_cast<std::uint32_t>(adler));
-  finish_chunk(bands.back().chunk, 0);
-
-  std::vector<std::uint8_t> header;
-  append_32(header, static_cast<std::uint32_t>(image.width));
-  append_32(header, static_cast<std::uint32_t>(image.height));
-  header.insert(header.end(),
-                {8, PNG_COLOR_TYPE_RGB, PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE, PNG_INTERLACE_NONE});
-  std::vector<std::uint8_t> bytes{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-  append_chunk(bytes, "IHDR", header);
-  append_chunk(bytes, "sRGB", {PNG_sRGB_INTENT_PERCEPTUAL});
-  for (Band& band : bands) {
-    bytes.insert(bytes.end(), band.chunk.begin(), band.chunk.end());
-    band.chunk = {};
-  }
-  append_chunk(bytes, "IEND", {});
+  std::vector<png::Band> bands = make_bands(image, threads);
+  std::vector<std::uint8_t> bytes = png::begin_file(image.width, image.height, 8, PNG_COLOR_TYPE_RGB);
+  png::append_chunk(bytes, "sRGB", {PNG_sRGB_INTENT_PERCEPTUAL});
+  png::append_bands(bytes, bands);
   return bytes;
 }
 

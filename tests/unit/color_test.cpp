@@ -1,4 +1,5 @@
 #include <facemap/color.h>
+#include <facemap/image_file.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -74,6 +75,38 @@ TEST(Color, EveryLevelComesBack) {
     const std::uint32_t rgb = level << 16 | (255 - level) << 8 | (level * 7 & 255);
     EXPECT_EQ(Color::from_24_bit(rgb).to_24_bit(), rgb);
   }
+}
+
+TEST(Color, SixteenBitLevelsAreRoundedToTheNearest) {
+  facemap::Image image;
+  image.width = 1 << 16;
+  image.height = 1;
+  for (int i = 0; i < image.width; ++i) {
+    const float linear = static_cast<float>(i) * 0x1p-16f;
+    image.pixels.push_back({linear, linear * linear, 1 - linear});
+  }
+  const std::vector<std::uint16_t> srgb = levels_16(image, facemap::Transfer::Srgb);
+  const std::vector<std::uint16_t> linear = levels_16(image, facemap::Transfer::Linear);
+  constexpr double kSlack = 1e-9;  // levels: the C library's own rounding
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const Color& color = image.pixels[i];
+    ASSERT_NEAR(srgb[3 * i], 257 * encoded_255(color.r), 0.5 + kSlack) << i;
+    ASSERT_NEAR(srgb[3 * i + 1], 257 * encoded_255(color.g), 0.5 + kSlack) << i;
+    ASSERT_NEAR(linear[3 * i + 2], 65535.0 * color.b, 0.5 + kSlack) << i;
+  }
+  for (const int threads : {1, 2, 3}) EXPECT_TRUE(levels_16(image, facemap::Transfer::Srgb, threads) == srgb);
+}
+
+TEST(Color, SixteenBitLevelsAreClampedAndNanIsBlack) {
+  const float infinity = std::numeric_limits<float>::infinity();
+  facemap::Image image;
+  image.width = 2;
+  image.height = 1;
+  image.pixels = {{-1, 2, std::nanf("")}, {infinity, -infinity, 1}};
+  const std::vector<std::uint16_t> expected = {0, 65535, 0, 65535, 0, 65535};
+  EXPECT_EQ(levels_16(image, facemap::Transfer::Srgb), expected);
+  EXPECT_EQ(levels_16(image, facemap::Transfer::Linear), expected);
+  EXPECT_EQ(levels_8(image), (std::vector<std::uint8_t>{0, 255, 0, 255, 0, 255}));
 }
 
 TEST(Color, AddsSubtractsAndMultiplies) {

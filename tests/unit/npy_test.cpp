@@ -1,5 +1,5 @@
 #include <facemap/error.h>
-#include <facemap/image.h>
+#include <facemap/image_file.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -7,6 +7,8 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+
+#include "support/planes.h"
 
 namespace {
 
@@ -78,10 +80,34 @@ TEST_F(Npy, WritesLightsWithTwoBytesForNineLights) {
   EXPECT_EQ(values<std::uint8_t>(), make_image().lights);
 }
 
+TEST_F(Npy, WritesPlanesOfAnyTypeAndDepth) {
+  const auto write = [&](const facemap::PlaneView& plane, facemap::NpyShape shape) {
+    facemap::write_file(path_, facemap::encode_npy(plane, shape));
+    read();
+  };
+  using facemap::NpyShape;
+  const TestPlane<float> normals(5, 3, 3);
+  write(normals.view(), NpyShape::ByChannels);
+  EXPECT_EQ(dictionary_, "{'descr': '<f4', 'fortran_order': False, 'shape': (3, 5, 3), }");
+  EXPECT_EQ(values<float>(), normals.values);
+  const TestPlane<std::uint16_t> counts(5, 3, 1);
+  write(counts.view(), NpyShape::ByChannels);
+  EXPECT_EQ(dictionary_, "{'descr': '<u2', 'fortran_order': False, 'shape': (3, 5), }");
+  EXPECT_EQ(values<std::uint16_t>(), counts.values);
+  const TestPlane<std::uint8_t> bits(5, 3, 1);
+  write(bits.view(), NpyShape::AlwaysThree);
+  EXPECT_EQ(dictionary_, "{'descr': '|u1', 'fortran_order': False, 'shape': (3, 5, 1), }");
+  EXPECT_EQ(values<std::uint8_t>(), bits.values);
+  EXPECT_EQ(error_of([] {
+              facemap::encode_npy({2, 2, 1, std::span<const float>()});
+            }),
+            "NPY: the plane has other values than it says");
+}
+
 TEST_F(Npy, RefusesAPlaneThatWasNotAskedFor) {
   Image image = make_image();
   image.ids.clear();
-  EXPECT_THROW(write_ids_npy(image, path_), facemap::Error);
+  EXPECT_EQ(error_of([&] { write_ids_npy(image, path_); }), path_.string() + ": the image has no plane of ids");
   EXPECT_FALSE(fs::exists(path_));
   EXPECT_THROW(write_depths_npy(image, "/dev/full"), facemap::Error);
 }
