@@ -9,6 +9,7 @@ namespace facemap::program {
 Command render_command();
 Command info_command();
 Command map_command();
+Command compare_command();
 Command scene_command();
 
 /// All of them, in the order of the help.

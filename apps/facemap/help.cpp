@@ -76,7 +76,8 @@ std::string program_help(const std::vector<Command>& commands) {
       "The environment variable FACEMAP_TARGET names the instruction set to use: scalar, sse4, avx2 or avx512.\n"
       "Without it the processor's best is used. Pictures are the same.\n"
       "\n"
-      "Exit code: 0 done, 1 a file or a scene is at fault, 2 the command line is, 128 + N ended by signal N.\n";
+      "Exit code: 0 done, 1 a file or a scene is at fault or pictures differ, 2 the command line is at fault,\n"
+      "128 + N ended by signal N.\n";
   return text;
 }
 

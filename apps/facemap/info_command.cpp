@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "exit_codes.h"
 #include "model.h"
 #include "text_values.h"
 
@@ -67,7 +68,10 @@ Command info_command() {
   command.options = {{"MODEL", "", "", "the model: a Wavefront OBJ file",
                       into(arguments->model, [](const std::string& text) { return std::filesystem::path(text); })}};
   command.examples = {{"facemap info model.obj", "what is in this file?"}};
-  command.run = [arguments] { print_info(*arguments); };
+  command.run = [arguments] {
+    print_info(*arguments);
+    return kDone;
+  };
   return command;
 }
 

@@ -6,16 +6,17 @@
 #include <new>
 
 #include "commands.h"
+#include "exit_codes.h"
 #include "interrupt.h"
 #include "usage_error.h"
 
 namespace facemap::program {
 
-std::vector<Command> all_commands() { return {render_command(), info_command(), map_command(), scene_command()}; }
+std::vector<Command> all_commands() {
+  return {render_command(), info_command(), map_command(), compare_command(), scene_command()};
+}
 
 namespace {
-
-constexpr int kDone = 0, kFailed = 1, kWrongUsage = 2;
 
 int complain(const char* reason, int exit_code) {
   std::cerr << "facemap: " << reason << std::endl;
@@ -35,14 +36,15 @@ int run(int argc, const char* const* argv) {
   const std::vector<Command> commands = all_commands();
   std::string answer;
   const Command* command = parse_command_line(commands, argc, argv, answer);
+  int exit_code = kDone;
   if (command) {
     check_environment();
-    command->run();
+    exit_code = command->run();
   } else {
     std::cout << answer;
   }
   std::cout.flush();
-  return std::cout ? kDone : complain("standard output: cannot write", kFailed);
+  return std::cout ? exit_code : complain("standard output: cannot write", kFailed);
 }
 
 }  // namespace

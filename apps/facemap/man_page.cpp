@@ -74,7 +74,7 @@ std::string man_page(const std::vector<Command>& commands) {
       "the same.\n"
       ".SH EXIT STATUS\n"
       ".TP\n\\fB0\\fR\ndone\n"
-      ".TP\n\\fB1\\fR\na file or a scene is at fault\n"
+      ".TP\n\\fB1\\fR\na file or a scene is at fault, or pictures differ\n"
       ".TP\n\\fB2\\fR\nthe command line is\n"
       ".TP\n\\fB128 + N\\fR\nended by signal N\n";
   return page;

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "commands.h"
+#include "exit_codes.h"
 #include "hit_picture.h"
 #include "interrupt.h"
 #include "model.h"
@@ -102,7 +103,10 @@ Command map_command() {
       {"facemap map model.obj --at 2,3,1 --look-at 0,0,0 --field-angle 90 --size 512x512 -o map.png",
        "what a lamp there shines on"},
   };
-  command.run = [arguments] { draw_map(*arguments); };
+  command.run = [arguments] {
+    draw_map(*arguments);
+    return kDone;
+  };
   return command;
 }
 

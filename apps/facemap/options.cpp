@@ -20,7 +20,8 @@ void add_to_parser(const Option& option, CLI::App& parser, Words& words) {
     parser.add_flag_callback(option.flags, [&option, &words] { words[&option].emplace_back(); });
   } else {
     // One word each time the flag stands there: a list of words would swallow the model's name.
-    parser.add_option(option.flags, words[&option])->allow_extra_args(false);
+    CLI::Option* const added = parser.add_option(option.flags, words[&option])->allow_extra_args(false);
+    if (option.is_argument()) added->expected(1);
   }
 }
 

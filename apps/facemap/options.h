@@ -34,7 +34,7 @@ struct Command {
   std::string text;     ///< a paragraph or two for --help, lines as they shall stand
   std::vector<Option> options;
   std::vector<Example> examples;
-  std::function<void()> run;  ///< after all options are set
+  std::function<int()> run;  ///< after all options are set; returns the exit code
 };
 
 /// An Option::set that stores what `parse` makes of the text. `field` must outlive the option.

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "exit_codes.h"
 #include "frame_writer.h"
 #include "model.h"
 #include "progress_line.h"
@@ -109,7 +110,10 @@ Command render_command() {
        "two places, one point to look at: view_0.png and view_1.png"},
       {"facemap render model.obj -o - --size 256x256 | file -", "a thumbnail for another program"},
   };
-  command.run = [arguments] { render(*arguments); };
+  command.run = [arguments] {
+    render(*arguments);
+    return kDone;
+  };
   return command;
 }
 

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "exit_codes.h"
 #include "interrupt.h"
 #include "output.h"
 #include "text_values.h"
@@ -102,7 +103,10 @@ Command scene_command() {
       {"facemap render chessboard.obj -o chessboard.png $(facemap scene chessboard -o chessboard.obj)",
        "make it, then draw it as meant"},
   };
-  command.run = [arguments] { make_scene(*arguments); };
+  command.run = [arguments] {
+    make_scene(*arguments);
+    return kDone;
+  };
   return command;
 }
 

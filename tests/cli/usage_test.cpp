@@ -11,7 +11,7 @@ TEST_F(Program, SaysItsVersion) {
 TEST_F(Program, HelpNamesEveryCommandAndEachHasItsOwn) {
   const Outcome outcome = run("--help");
   EXPECT_EQ(outcome.exit_code, 0);
-  for (const char* command : {"render", "info", "map", "scene"}) {
+  for (const char* command : {"render", "info", "map", "compare", "scene"}) {
     EXPECT_NE(outcome.out.find(std::string("  ") + command + " "), std::string::npos) << command;
     const Outcome help = run(std::string(command) + " --help");
     EXPECT_EQ(help.exit_code, 0);
@@ -22,7 +22,7 @@ TEST_F(Program, HelpNamesEveryCommandAndEachHasItsOwn) {
 }
 
 TEST_F(Program, HelpFitsATerminal) {
-  for (const char* command : {"", "render", "info", "map", "scene"}) {
+  for (const char* command : {"", "render", "info", "map", "compare", "scene"}) {
     const std::string help = run(std::string(command) + " --help").out;
     for (std::size_t start = 0, end; start < help.size(); start = end + 1) {
       end = help.find('\n', start);
@@ -50,6 +50,7 @@ TEST_F(Program, AsksForWhatIsMissing) {
   expect_error(run("render -o a.png"), 2, "no model is given");
   expect_error(run("render cube.obj"), 2, "no output file is given: add -o FILE, or -o - for standard output");
   expect_error(run("info"), 2, "no model is given");
+  expect_error(run("compare a.png"), 2, "two pictures are to be given");
   expect_error(run("map cube.obj -o a.png"), 2, "no place is given: add --at X,Y,Z");
   expect_error(run("scene -o a.obj"), 2, "no scene is named");
   expect_error(run("scene castle -o a.obj"), 2, "SCENE: 'castle' is not chessboard, grass, bust or typewriter");
@@ -112,7 +113,7 @@ TEST_F(Program, RefusesValuesThatMakeNoSense) {
 
 TEST_F(Program, HelpAsAPageHoldsEveryHelp) {
   const std::string page = run("--help-markdown").out;
-  for (const char* command : {"", "render", "info", "map", "scene"}) {
+  for (const char* command : {"", "render", "info", "map", "compare", "scene"}) {
     EXPECT_NE(page.find(run(std::string(command) + " --help").out), std::string::npos) << command;
   }
   EXPECT_TRUE(page == text_of_file(FACEMAP_SOURCE_DIR "/docs/cli.md"))
