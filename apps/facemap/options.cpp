@@ -77,7 +77,8 @@ std::vector<std::string> long_flags(const Command& command) {
   std::vector<std::string> names;
   for (const Command& command : commands) names.push_back(command.name);
   std::string hint = suggestion(word, names);
-  if (word.ends_with(".obj")) hint = "; did you mean facemap render " + word + "?";
+  const bool is_model = word.ends_with(".obj") || word.ends_with(".ply") || word.ends_with(".stl");
+  if (is_model) hint = "; did you mean facemap render " + word + "?";
   throw UsageError("unknown " + std::string(word.starts_with('-') ? "option " : "command ") + word + hint +
                    "\nTry 'facemap --help'.");
 }

@@ -7,19 +7,13 @@
 #include <limits>
 
 #include "image/srgb.h"
-#include "math/elementary.h"
+#include "math/srgb_transfer.h"
 
 namespace facemap {
 namespace {
 
 constexpr int kLevels = 256;
 constexpr int kBins = 4096;
-
-/// IEC 61966-2-1: the linear value of an encoded one in 0..1.
-double linear_from_srgb(double encoded) {
-  if (encoded <= 0.04045) return encoded / 12.92;
-  return elementary::pow((encoded + 0.055) / 1.055, 2.4);
-}
 
 /// The smallest float that is not below `value`.
 float float_at_or_above(double value) {

@@ -81,4 +81,14 @@ const char* scan_any_float(const char* const start, float& value) {
   return at;
 }
 
+bool spells_not_finite(std::string_view word) {
+  if (word.starts_with('-') || word.starts_with('+')) word.remove_prefix(1);
+  if (word.starts_with("1.#")) return true;
+  const auto begins_with = [word](std::string_view lower) {
+    return word.size() >= lower.size() &&
+           std::equal(lower.begin(), lower.end(), word.begin(), [](char l, char c) { return l == c || l - c == 0x20; });
+  };
+  return begins_with("nan") || begins_with("inf");
+}
+
 }  // namespace facemap

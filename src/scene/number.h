@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <string_view>
 
 namespace facemap {
 
@@ -124,6 +125,9 @@ inline const char* scan_float(const char* const start, float& value) {
   value = std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) ^ static_cast<std::uint32_t>(negative) << 31);
   return at;
 }
+
+/// Whether a word spells infinity or NaN as printf of some system does: "-inf", "nan", "-nan(ind)", "1.#QNAN".
+bool spells_not_finite(std::string_view word);
 
 /// Reads a whole number, which may have a sign, and returns its end (any byte may follow); nullptr if there is
 /// none. Numbers of more than 18 digits become +-kHugeIndex.

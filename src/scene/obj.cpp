@@ -5,7 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include "scene/file_mapping.h"
 #include "scene/obj_reader.h"
 #include "simd/floating_point_mode.h"
 
@@ -17,10 +16,9 @@ constexpr std::size_t kLargeFile = std::size_t{1} << 25;  ///< bytes: its pages 
 
 }  // namespace
 
-ObjModel load_obj(const std::filesystem::path& path, const OBJ::Limits& limits) {
+ObjModel load_obj(std::optional<FileMapping>& file, const std::filesystem::path& path, const OBJ::Limits& limits) {
   const FloatingPointMode mode;
   const std::string name = path.string();
-  std::optional<FileMapping> file(std::in_place, path, limits.max_bytes);
   ObjReader reader(file->text(), name, path.has_parent_path() ? path.parent_path() : ".", limits);
   const bool is_large = file->text().size() >= kLargeFile;
   reader.read(is_large ? [&file](std::string_view part) { file->release(part); } : ObjChunks::Release());
@@ -34,7 +32,10 @@ OBJ::OBJ(ObjModel&& model)
   if (!model.smoothing.empty()) add_smooth_normals(mesh_, model.smoothing);
 }
 
-OBJ OBJ::load(const std::filesystem::path& path, const Limits& limits) { return OBJ(load_obj(path, limits)); }
+OBJ OBJ::load(const std::filesystem::path& path, const Limits& limits) {
+  std::optional<FileMapping> file(std::in_place, path, limits.max_bytes);
+  return OBJ(load_obj(file, path, limits));
+}
 
 OBJ OBJ::parse(std::string_view text, const std::string& name, const std::filesystem::path& directory,
                const Limits& limits) {

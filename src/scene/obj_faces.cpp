@@ -66,12 +66,13 @@ void ObjFaces::set(std::vector<SmoothingRun>& runs, std::uint32_t value, std::si
 
 void ObjFaces::add_polygon_ids(std::size_t triangle_count) {
   std::vector<std::uint32_t>& polygons = mesh_.polygons;
-  if (polygons.empty() && triangle_count > 1) {
+  if (!has_polygon_ids_ && triangle_count != 1) {
     reserve_pages(polygons, mesh_.triangles.capacity());
     polygons.resize(polygon_count_);
     std::iota(polygons.begin(), polygons.end(), 0u);
+    has_polygon_ids_ = true;
   }
-  if (!polygons.empty() || triangle_count > 1) {
+  if (has_polygon_ids_) {
     for (std::size_t i = 0; i < triangle_count; ++i) polygons.push_back(polygon_count_);
   }
   ++polygon_count_;

@@ -33,6 +33,9 @@ class ObjFaces {
   /// into triangles by finish().
   void add(std::span<const ObjCorner> corners, std::int64_t line, bool is_complete);
 
+  /// Counts a face that makes no triangle.
+  void leave_out() { add_polygon_ids(0); }
+
   /// Cuts a polygon that stands in the mesh as a fan into the right triangles. Its indices must be in range.
   void cut(std::size_t first_triangle, std::size_t corner_count, std::int64_t line);
 
@@ -59,6 +62,7 @@ class ObjFaces {
   Mesh& mesh_;
   ObjWarnings& warnings_;
   std::uint32_t polygon_count_ = 0;
+  bool has_polygon_ids_ = false;  ///< Mesh::polygons has one a triangle
   std::int64_t self_intersecting_ = 0;
   std::vector<SmoothingRun> smoothing_runs_;
   std::vector<SmoothingRun> material_runs_;  ///< materials in the place of groups

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "parallel/executor.h"
+#include "scene/file_mapping.h"
 #include "scene/obj_chunks.h"
 #include "scene/obj_faces.h"
 #include "scene/obj_lines.h"
@@ -29,8 +30,8 @@ struct ObjModel {
   std::vector<SmoothingRun> smoothing;
 };
 
-/// As OBJ::load.
-ObjModel load_obj(const std::filesystem::path& path, const OBJ::Limits& limits);
+/// As OBJ::load, of a file that is open and will be closed when it has been read.
+ObjModel load_obj(std::optional<FileMapping>& file, const std::filesystem::path& path, const OBJ::Limits& limits);
 
 /// Reads the statements of an OBJ text into a mesh: one line after the other, or a large text without oddities in
 /// chunks by several threads, with the same outcome.

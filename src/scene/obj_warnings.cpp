@@ -16,7 +16,9 @@ void ObjWarnings::add(std::int64_t line, const char* cause, std::string_view det
 
 void ObjWarnings::append_to(std::vector<std::string>& texts) const {
   for (const Warning& warning : warnings_) {
-    std::string text = file_ + ":" + std::to_string(warning.line) + ": " + std::string(warning.cause);
+    std::string text = file_;
+    if (warning.line > 0) text += ":" + std::to_string(warning.line);
+    text += ": " + std::string(warning.cause);
     if (!warning.detail.empty()) text += ": " + warning.detail;
     if (warning.count > 1) text += " (" + std::to_string(warning.count) + " times)";
     texts.push_back(std::move(text));

@@ -13,10 +13,11 @@ class ObjWarnings {
  public:
   explicit ObjWarnings(std::string file) : file_(std::move(file)) {}
 
-  /// `cause` must outlive this object (a literal); `detail` is text from the file and is made printable.
+  /// `line` counts from 1; 0: no line is to blame. `cause` must outlive this object (a literal); `detail` is text from
+  /// the file and is made printable.
   void add(std::int64_t line, const char* cause, std::string_view detail = {});
 
-  /// Appends "file:line: cause: detail (n times)" for each cause to `texts`.
+  /// Appends "file:line: cause: detail (n times)", or "file: cause: ...", for each cause to `texts`.
   void append_to(std::vector<std::string>& texts) const;
 
  private:

@@ -4,14 +4,18 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "parallel/executor.h"
 #include "scene/check_mesh.h"
+#include "scene/file_mapping.h"
+#include "scene/model_format.h"
 #include "scene/obj_reader.h"
 #include "scene/odd_faces.h"
 #include "scene/pieces.h"
+#include "scene/read_model.h"
 #include "scene/vertex_bounds.h"
 #include "simd/floating_point_mode.h"
 
@@ -22,13 +26,18 @@ namespace {
 constexpr std::size_t kSmallScene = 1 << 16;  ///< faces below which threads cost more than they gain
 constexpr std::size_t kLeastPiece = 1 << 13;  ///< faces worth a task of their own
 
-/// The lower-case extension of a file's name, with its point.
-std::string extension_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return extension;
+/// What a model of a format other than OBJ holds, in the words of OBJ.
+OBJ::Report report_of(const Model& model) {
+  OBJ::Report report;
+  const Mesh& mesh = model.mesh;
+  report.vertices = static_cast<std::int64_t>(mesh.positions.size());
+  report.texture_coordinates = static_cast<std::int64_t>(mesh.texture_coordinates.size());
+  report.normals = static_cast<std::int64_t>(mesh.normals.size());
+  report.triangles = static_cast<std::int64_t>(mesh.face_count());
+  report.polygons = mesh.polygons.empty() ? report.triangles : std::int64_t{mesh.polygons.back()} + 1;
+  report.objects = static_cast<std::int64_t>(model.objects.size());
+  report.warnings = model.warnings;
+  return report;
 }
 
 }  // namespace
@@ -56,14 +65,23 @@ void Scene::examine_faces(const Executor& executor) {
 }
 
 Scene Scene::load(const std::filesystem::path& path, int threads) {
-  if (extension_of(path) != ".obj") {
-    throw LoadError(LoadError::Cause::UnknownFormat, path.string(), 0, "unknown format; known: .obj");
-  }
+  const FloatingPointMode mode;
   OBJ::Limits limits;
   limits.threads = threads;
-  ObjModel model = load_obj(path, limits);
-  Scene scene(std::move(model.mesh), std::move(model.materials), model.smoothing, threads);
-  scene.report_ = std::move(model.report);
+  std::optional<FileMapping> file(std::in_place, path, limits.max_bytes);
+  const ModelFormat format = sniff_format(file->text(), path.extension());
+  if (format == ModelFormat::Obj) {
+    ObjModel model = load_obj(file, path, limits);
+    Scene scene(std::move(model.mesh), std::move(model.materials), model.smoothing, threads);
+    scene.report_ = std::move(model.report);
+    return scene;
+  }
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  Model model = read_model(format, file->text(), path.string(), folder, ModelLimits());
+  file.reset();
+  OBJ::Report report = report_of(model);
+  Scene scene(std::move(model.mesh), std::move(model.materials), threads);
+  scene.report_ = std::move(report);
   return scene;
 }
 

@@ -107,8 +107,10 @@ LoadError::Cause load_failure(const std::filesystem::path& path) {
 }
 
 TEST(Scene, RefusesFilesItDoesNotKnowOrFind) {
-  EXPECT_EQ(load_failure("model.fbx"), LoadError::Cause::UnknownFormat);
-  EXPECT_EQ(load_failure("model"), LoadError::Cause::UnknownFormat);
+  const TemporaryFile other("model.fbx", "Kaydara FBX Binary  "), nothing("model", "");
+  EXPECT_EQ(load_failure(other.path), LoadError::Cause::UnknownFormat);
+  EXPECT_EQ(load_failure(nothing.path), LoadError::Cause::UnknownFormat);
+  EXPECT_EQ(load_failure("/nonexistent/model.fbx"), LoadError::Cause::CannotOpen);
   EXPECT_EQ(load_failure("/nonexistent/model.obj"), LoadError::Cause::CannotOpen);
   std::filesystem::create_directories(std::filesystem::path(testing::TempDir()) / "facemap_folder.obj");
   EXPECT_EQ(load_failure(std::filesystem::path(testing::TempDir()) / "facemap_folder.obj"),
