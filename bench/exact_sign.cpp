@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "math/parallel_signs.h"
 #include "support/random.h"
 
 namespace {
@@ -23,6 +24,8 @@ struct Question {
   Triangle G;
   int side_from_camera, side_from_light;
   Vector K, d, L;
+  int side_along_ray, side_along_light;
+  Vector light;  // parallel to the way from L to the middle of the point's face
   TruePoint point;
 };
 
@@ -58,6 +61,9 @@ std::vector<Question> questions(Case kind) {
     }
     q.side_from_camera = facemap::side(q.G, q.K);
     q.side_from_light = facemap::side(q.G, q.L);
+    q.light = Vector(centre - facemap::DVector(q.L));
+    q.side_along_ray = facemap::side_along(q.G, q.d);
+    q.side_along_light = facemap::side_along(q.G, q.light);
     q.point = {q.K, q.d, F, facemap::side(F, q.K)};
     if (q.side_from_camera != 0 && q.side_from_light != 0 && q.point.s != 0) result.push_back(q);
   }
@@ -114,6 +120,24 @@ void blocks(benchmark::State& state, Case kind) {
   });
 }
 
+// Parallel light and rays, along the way from the light and the camera to the point.
+void side_along(benchmark::State& state) {
+  measure(state, Case::Apart,
+          [](const Question& q, facemap::Counters* counters) { return side_along(q.G, q.d, counters); });
+}
+
+void covers_along(benchmark::State& state) {
+  measure(state, Case::Apart, [](const Question& q, facemap::Counters* counters) {
+    return covers_along(q.G, q.side_along_ray, q.K, q.d, counters).hit;
+  });
+}
+
+void blocks_along(benchmark::State& state, Case kind) {
+  measure(state, kind, [](const Question& q, facemap::Counters* counters) {
+    return blocks_along(q.G, q.side_along_light, q.light, q.point, counters);
+  });
+}
+
 void ray_parameter(benchmark::State& state) {
   measure(state, Case::Apart,
           [](const Question& q, facemap::Counters*) { return facemap::ray_parameter(q.point).value; });
@@ -140,6 +164,10 @@ BENCHMARK_CAPTURE(blocks, apart, Case::Apart);
 BENCHMARK_CAPTURE(blocks, coplanar, Case::Coplanar);
 BENCHMARK_CAPTURE(blocks, coplanar_far_from_origin, Case::CoplanarFarFromOrigin);
 BENCHMARK_CAPTURE(blocks, coplanar_with_tiny_numbers, Case::CoplanarWithTinyNumbers);
+BENCHMARK(side_along);
+BENCHMARK(covers_along);
+BENCHMARK_CAPTURE(blocks_along, apart, Case::Apart);
+BENCHMARK_CAPTURE(blocks_along, coplanar, Case::Coplanar);
 BENCHMARK(ray_parameter);
 BENCHMARK(ray_parameter_and_offset);
 BENCHMARK(is_degenerate);

@@ -278,4 +278,19 @@ TEST(Parallel, ExitsOfClosedPartsAnswerForAllTheirFaces) {
   EXPECT_GT(count.moved, 5000);
 }
 
+// Why the theorem asks for a camera off the part with winding number 0: what it sees from within, it sees behind the
+// entries.
+TEST(Parallel, ACameraWithinAClosedPartNeedsEntries) {
+  const Mesh mesh = test_scenes::box({-1, -1, -1}, {1, 1, 1});
+  const Oracle oracle(mesh);
+  const Vector along(0.125f, 0.25f, -1), d(0.25f, -0.125f, -1);
+  const AllFaces camera(oracle, along), light(oracle, d);
+  const Hit hit = camera.nearest({0, 0, 0});
+  ASSERT_TRUE(hit.strictly_inside && hit.side == 1);
+  const TruePoint point{{0, 0, 0}, along, camera.triangle(hit.face), hit.side};
+  ASSERT_TRUE(facemap::is_facing_along(point.face, hit.side, d));
+  EXPECT_TRUE(light.is_blocked(point));
+  EXPECT_FALSE(light.is_blocked(point, is_exit));
+}
+
 }  // namespace
