@@ -9,6 +9,7 @@
 #include <facemap/image.h>
 #include <facemap/image_file.h>
 #include <facemap/instruction_set.h>
+#include <facemap/lens.h>
 #include <facemap/light.h>
 #include <facemap/material.h>
 #include <facemap/mesh.h>
