@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "image/srgb.h"
-#include "math/srgb_transfer.h"
+#include "math/elementary.h"
 
 namespace facemap {
 namespace {
@@ -92,6 +92,11 @@ void encode_srgb(const Color* colors, std::size_t count, std::uint8_t* bytes) {
       encode(colors, first, end, bytes);
     }
   }
+}
+
+double linear_from_srgb(double encoded) {
+  if (encoded <= 0.04045) return encoded / 12.92;
+  return elementary::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
 double srgb_from_linear(double linear) {

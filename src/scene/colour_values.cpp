@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "math/srgb_transfer.h"
+#include "image/srgb.h"
 
 namespace facemap {
 
