@@ -10,6 +10,7 @@
 
 #include <cstring>
 
+#include "image/exr_header.h"
 #include "image/image_limits.h"
 
 namespace facemap {
@@ -47,13 +48,9 @@ void add_channel(const std::string& name, Imf::PixelType type, const Imath::Box2
   slices.insert(name, Imf::Slice::Make(type, values.data(), window));
 }
 
-/// The header, before the library takes memory for what it promises.
-Imf::Header read_header(std::span<const std::uint8_t> bytes, const std::string& name) {
+/// The header alone, before the library takes memory for what it promises.
+Imf::Header read_header(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kVersion = 4, kBegin = 8;  // places
-  constexpr unsigned kDeep = 0x08, kSeveralParts = 0x10;
-  if (bytes.size() < kBegin) refuse_picture(name, "EXR", "it ends too early");
-  if (bytes[kVersion + 1] & (kDeep | kSeveralParts))
-    refuse_picture(name, "EXR", "files of several parts or of deep pixels are not read");
   ByteStream stream(bytes);
   stream.seekg(kBegin);
   int version = bytes[kVersion] | bytes[kVersion + 1] << 8;
@@ -63,7 +60,7 @@ Imf::Header read_header(std::span<const std::uint8_t> bytes, const std::string& 
 }
 
 PictureChannels read(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
-  const Imf::Header header = read_header(bytes, name);
+  const Imf::Header header = read_header(bytes);
   const Imath::Box2i window = header.dataWindow();
   const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1,
                      height = std::int64_t{window.max.y} - window.min.y + 1;
@@ -102,7 +99,7 @@ bool is_exr(std::span<const std::uint8_t> bytes) noexcept {
 
 PictureChannels decode_exr(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
   try {
-    return read(bytes, name, max_pixels);
+    return read(with_plain_header(bytes, name), name, max_pixels);
   } catch (const Iex::BaseExc& error) {
     refuse_picture(name, "EXR", error.what());
   }

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <string_view>
 
 #include "image/decode_exr.h"
 #include "support/planes.h"
@@ -51,6 +52,14 @@ std::vector<Value> channel(const PictureChannels& picture, const std::string& na
     if (one.name == name) return std::get<std::vector<Value>>(one.values);
   }
   return {};
+}
+
+/// A file with these bytes `offset` behind the first place of `text`.
+Bytes with_changed_header(std::string_view text, std::ptrdiff_t offset, const Bytes& changed) {
+  Bytes bytes = encode_exr(Planes().layers());
+  const auto at = std::search(bytes.begin(), bytes.end(), text.begin(), text.end());
+  std::copy(changed.begin(), changed.end(), at + offset);
+  return bytes;
 }
 
 TEST(Exr, ReadsBackWhatItWrote) {
@@ -125,13 +134,22 @@ TEST(Exr, RefusesBrokenFiles) {
   several[5] |= 0x10;
   EXPECT_EQ(refusal(several), "a.exr: EXR cannot be read: files of several parts or of deep pixels are not read");
 
-  const std::string_view name = "dataWindow";
-  Bytes large = whole;
-  const auto at = std::search(large.begin(), large.end(), name.begin(), name.end());
-  ASSERT_NE(at, large.end());
-  const auto corner = at + 11 + 6 + 4 + 8;  // behind "dataWindow", "box2i", the size, the other corner
-  std::fill(corner, corner + 3, std::uint8_t{0xff});
-  EXPECT_EQ(refusal(large).find("a.exr: a picture of 16777216x37 pixels; at most "), 0u) << refusal(large);
+  // Behind "dataWindow", "box2i", the size, the other corner: 2^24 - 1.
+  const Bytes large = with_changed_header("dataWindow", 11 + 6 + 4 + 8, {0xff, 0xff, 0xff});
+  EXPECT_EQ(refusal(large), "a.exr: a picture of 16777216x37 pixels; at most 1048576 pixels are allowed");
+}
+
+TEST(Exr, AttributesThatPromiseMuchTakeNoMemory) {
+  const auto refusal = [](const Bytes& bytes) { return error_of([&] { decode_exr(bytes, "a.exr", kMaxPixels); }); };
+  const std::ptrdiff_t size = 15 + 15;  // behind name and type of "chromaticities"
+  EXPECT_EQ(refusal(with_changed_header("chromaticities", size, {0, 0, 0, 0x70})),
+            "a.exr: EXR cannot be read: it ends too early");
+  EXPECT_EQ(refusal(with_changed_header("chromaticities", 15, {'p', 'r', 'e', 'v', 'i', 'e', 'w'})), "no error")
+      << "of another type";
+  EXPECT_EQ(refusal(with_changed_header("dataWindow", 11 + 6, {17})),
+            "a.exr: EXR cannot be read: its attribute dataWindow is of another type or size");
+  EXPECT_EQ(refusal(with_changed_header("channels", 9, {'x'})),
+            "a.exr: EXR cannot be read: its attribute channels is of another type or size");
 }
 
 }  // namespace
