@@ -65,7 +65,7 @@ Command info_command() {
   command.text =
       "Counts, bounds, faces that are left out of pictures and why, statements that were read over, warnings.\n"
       "Faces left out keep their numbers: nothing is renumbered.\n";
-  command.options = {{"MODEL", "", "", "the model: an OBJ, PLY or STL file",
+  command.options = {{"MODEL", "", "", "the model: an OBJ, glTF, PLY or STL file",
                       into(arguments->model, [](const std::string& text) { return std::filesystem::path(text); })}};
   command.examples = {{"facemap info model.obj", "what is in this file?"}};
   command.run = [arguments] {

@@ -80,7 +80,7 @@ Command map_command() {
       "middle is the angle. The ray through each texel's centre meets so many faces: white is none, darker is\n"
       "more; the legend below has the numbers. Pale blue is outside of 360 degrees.\n";
   command.options = {
-      {"MODEL", "", "", "the model: an OBJ, PLY or STL file", into(a.model, path)},
+      {"MODEL", "", "", "the model: an OBJ, glTF, PLY or STL file", into(a.model, path)},
       {"--at", "X,Y,Z", "", "the point: a light's or a camera's place", into(a.at, parse_vector)},
       {"-o,--output", "FILE", "", "the picture: PNG; - writes it to standard output", into(a.output, path)},
       {"--size", "WxH", "1024x1024", "texels; the legend comes on top", into(a.size, parse_size)},

@@ -77,7 +77,9 @@ std::vector<std::string> long_flags(const Command& command) {
   std::vector<std::string> names;
   for (const Command& command : commands) names.push_back(command.name);
   std::string hint = suggestion(word, names);
-  const bool is_model = word.ends_with(".obj") || word.ends_with(".ply") || word.ends_with(".stl");
+  constexpr std::string_view kModels[] = {".obj", ".gltf", ".glb", ".ply", ".stl"};
+  const bool is_model = std::any_of(std::begin(kModels), std::end(kModels),
+                                    [&](std::string_view extension) { return word.ends_with(extension); });
   if (is_model) hint = "; did you mean facemap render " + word + "?";
   throw UsageError("unknown " + std::string(word.starts_with('-') ? "option " : "command ") + word + hint +
                    "\nTry 'facemap --help'.");

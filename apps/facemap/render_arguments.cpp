@@ -121,7 +121,7 @@ void append(std::vector<Option>& options, std::vector<Option> more) {
 
 std::vector<Option> render_options(RenderArguments& a) {
   std::vector<Option> options = {
-      {"MODEL", "", "", "the model: an OBJ, PLY or STL file", into(a.model, parse_path)},
+      {"MODEL", "", "", "the model: an OBJ, glTF, PLY or STL file", into(a.model, parse_path)},
       {"-o,--output", "FILE", "",
        "the picture: PNG, 8-bit sRGB; - writes it to standard output; {n} in the name stands for the picture's number, "
        "from 0",

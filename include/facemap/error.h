@@ -25,7 +25,11 @@ class LoadError : public Error {
     NoFaces,
     TooLarge,
     BadEncoding,
-    BadImage,  ///< a picture that cannot be decoded
+    BadImage,     ///< a picture that cannot be decoded
+    BadSyntax,    ///< not well-formed
+    BadValue,     ///< a value of the wrong type or out of its range, or none where there must be one
+    Unsupported,  ///< well-formed, but not read: another version, a required extension
+    NotAllowed,   ///< names a file outside the model's folder
   };
 
   /// `line` counts from 1; 0 means that no line is to blame.

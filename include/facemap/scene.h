@@ -29,7 +29,8 @@ class Scene {
   /// may work on a large one (0: as many as the process may run at once); the scene does not depend on them.
   explicit Scene(Mesh mesh, std::vector<Material> materials = {}, int threads = 0);
 
-  /// Reads a model file: OBJ, PLY or STL, by its content, or by its name where that does not say. Throws LoadError.
+  /// Reads a model file: OBJ, glTF, PLY or STL, by its content, or by its name where that does not say. Throws
+  /// LoadError.
   static Scene load(const std::filesystem::path& path, int threads = 0);
 
   const Mesh& mesh() const noexcept { return mesh_; }

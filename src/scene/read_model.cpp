@@ -2,6 +2,7 @@
 
 #include <facemap/error.h>
 
+#include "scene/gltf.h"
 #include "scene/ply.h"
 #include "scene/stl.h"
 
@@ -17,6 +18,7 @@ Model read_model(ModelFormat format, std::string_view bytes, const std::string& 
       return read_stl(bytes, name, limits);
     case ModelFormat::GltfJson:
     case ModelFormat::GltfBinary:
+      return read_gltf(bytes, name, directory, limits);
     case ModelFormat::Obj:
     case ModelFormat::Unknown:
       break;
