@@ -93,6 +93,66 @@ TEST(OpenCVPinhole, PlacesComeBackThroughTheFormula) {
   }
 }
 
+// The exact solution near a computed one, in long double: Newton's steps with the derivative by differences.
+template <class Formula>
+void refine(const Formula& formula, const Pixel& target, long double& a, long double& b) {
+  for (int i = 0; i < 8; ++i) {
+    constexpr long double kStep = 1e-7L;
+    const Pixel at = formula(a, b), along_a = formula(a + kStep, b), along_b = formula(a, b + kStep);
+    const long double ua = (along_a.u - at.u) / kStep, va = (along_a.v - at.v) / kStep;
+    const long double ub = (along_b.u - at.u) / kStep, vb = (along_b.v - at.v) / kStep;
+    const long double du = target.u - at.u, dv = target.v - at.v, determinant = ua * vb - ub * va;
+    a += (du * vb - dv * ub) / determinant;
+    b += (dv * ua - du * va) / determinant;
+  }
+}
+
+// What rounding of places costs besides.
+double error_bound(const Lens& lens) { return lens.angle_error() + 2 * Lens::kPlaceError * lens.pixel_angle(); }
+
+TEST(OpenCVPinhole, DirectionsKeepTheirErrorBound) {
+  const CameraMatrix matrix{380, 384, 319, 241};
+  const std::vector<PinholeDistortion> distortions = {
+      {}, {-0.31, 0.11, 0.002, -0.003, -0.01}, {0.4628, -2.6, 0.0007, -0.0002, 1.5, 0.3443, -2.43, 1.43}};
+  for (const PinholeDistortion& k : distortions) {
+    const Lens lens = Lens::opencv_pinhole(matrix, k, 640, 480);
+    for (double y = 0.5; y < 480; y += 13) {
+      for (double x = 0.5; x < 640; x += 13) {
+        const DVector d = *lens.direction({x, y});
+        long double a = d.x / d.z, b = -d.y / d.z;
+        const long double first_a = a, first_b = b;
+        refine([&](long double s, long double t) { return opencv_pinhole(matrix, k, s, t, 1); }, {x - 0.5L, y - 0.5L},
+               a, b);
+        // An angle is at most the distance of its ends on the plane.
+        EXPECT_LE(std::hypot(a - first_a, b - first_b), error_bound(lens)) << x << ' ' << y;
+      }
+    }
+  }
+}
+
+TEST(OpenCVFisheye, DirectionsKeepTheirErrorBound) {
+  const CameraMatrix matrix{285.7, 286.1, 508.2, 513.7};
+  const FisheyeDistortion k{-0.012, 0.004, -0.0035, 0.0006};
+  const Lens lens = Lens::opencv_fisheye(matrix, k, 1024, 1024);
+  for (double y = 0.5; y < 1024; y += 23) {
+    for (double x = 0.5; x < 1024; x += 23) {
+      const auto d = lens.direction({x, y});
+      ASSERT_TRUE(d);
+      // Angle from the sight and angle around.
+      long double theta = std::atan2(std::hypot(static_cast<long double>(d->x), d->y), static_cast<long double>(d->z));
+      long double around = std::atan2(-static_cast<long double>(d->y), d->x);
+      const long double first_theta = theta, first_around = around;
+      refine(
+          [&](long double s, long double t) {
+            return opencv_fisheye(matrix, k, std::sin(s) * std::cos(t), std::sin(s) * std::sin(t), std::cos(s));
+          },
+          {x - 0.5L, y - 0.5L}, theta, around);
+      const long double off = std::hypot(theta - first_theta, std::sin(theta) * (around - first_around));
+      EXPECT_LE(off, error_bound(lens)) << x << ' ' << y;
+    }
+  }
+}
+
 TEST(OpenCVFisheye, RimOfTwoHundredAndTwentyDegreesIsWhereTheFormulaHasIt) {
   // Without distortion 110 degrees from the sight are 1.9199 focal lengths.
   constexpr double kRim = 110 * facemap::elementary::kPi / 180;
@@ -100,8 +160,12 @@ TEST(OpenCVFisheye, RimOfTwoHundredAndTwentyDegreesIsWhereTheFormulaHasIt) {
   const DVector d = *lens.direction({512 + 256 * kRim, 512});
   EXPECT_NEAR(d.z, std::cos(kRim), 1e-14);
   EXPECT_NEAR(d.x, std::sin(kRim), 1e-14);
-  // Depth: a point at range 10 lies at z = 10 cos, behind the camera's plane.
-  EXPECT_NEAR(lens.map_point(d * 10.0)->x, 512 + 256 * kRim, 1e-10);
+  // A point of range 10 there has the depth z = 10 cos 110 degrees, behind the camera's plane; range and z lead back.
+  const double range = 10, z = range * d.z;
+  EXPECT_NEAR(z, -3.4202014332566873, 1e-12);
+  const MapPoint again = *lens.map_point({std::sqrt(range * range - z * z), 0, z});
+  EXPECT_NEAR(again.x, 512 + 256 * kRim, 1e-10);
+  EXPECT_NEAR(again.y, 512, 1e-10);
 }
 
 TEST(OpenCVPinhole, WithoutDistortionIsThePlaneProjection) {
