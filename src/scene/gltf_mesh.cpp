@@ -124,17 +124,21 @@ void GltfMeshBuilder::check_room(const GltfNode& node, const GltfSurface& surfac
 }
 
 void GltfMeshBuilder::add_positions(const GltfNode& node, const Affine& world, const GltfSurface& surface) {
-  for (const DVector& position : surface.positions) {
-    const Vector placed(world.point(position));
+  const std::size_t first = mesh_.positions.size();
+  mesh_.positions.resize(first + surface.positions.size());
+  for (std::size_t i = 0; i < surface.positions.size(); ++i) {
+    const Vector placed(world.point(surface.positions[i]));
     if (!is_finite(placed)) node.value.fail(Cause::BadNumber, "moves a vertex to where no float goes");
-    mesh_.positions.push_back(placed);
+    mesh_.positions[first + i] = placed;
   }
 }
 
 void GltfMeshBuilder::add_normals(const Affine& world, const GltfSurface& surface) {
   const Affine transform = world.of_normals();
-  for (const Vector& normal : surface.normals) {
-    mesh_.normals.push_back(Vector(unit_or_zero(transform.direction(DVector(normal)))));
+  const std::size_t first = mesh_.normals.size();
+  mesh_.normals.resize(first + surface.normals.size());
+  for (std::size_t i = 0; i < surface.normals.size(); ++i) {
+    mesh_.normals[first + i] = Vector(unit_or_zero(transform.direction(DVector(surface.normals[i]))));
   }
 }
 
@@ -143,11 +147,13 @@ void GltfMeshBuilder::add_normals(const Affine& world, const GltfSurface& surfac
 void GltfMeshBuilder::add_corners(std::vector<Corners>& corners, std::size_t face_count, std::size_t first,
                                   const Affine& world, const GltfSurface& surface) const {
   corners.resize(face_count, kNoCorners);
+  corners.resize(face_count + surface.triangles.size());
   const bool is_mirrored = world.is_mirrored();
   const auto offset = static_cast<std::uint32_t>(first);
-  for (const Corners& triangle : surface.triangles) {
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    const Corners& triangle = surface.triangles[i];
     const Corners moved = {triangle[0] + offset, triangle[1] + offset, triangle[2] + offset};
-    corners.push_back(is_mirrored ? turned(moved) : moved);
+    corners[face_count + i] = is_mirrored ? turned(moved) : moved;
   }
 }
 
