@@ -36,10 +36,11 @@ struct Model {
   std::vector<std::string> warnings;            ///< "file:line: text" or "file: text", one a cause
 };
 
-/// Limits of what reading may take, for files that are not to be trusted.
+/// Limits of what reading may take; the first two are for files that are not to be trusted.
 struct ModelLimits {
   std::uint64_t max_bytes = std::uint64_t{1} << 36;  ///< of the file, and of all that it names
   std::uint64_t max_faces = 0x7fffffff;              ///< triangles; a face id is an int32
+  int threads = 0;                                   ///< that may read; 0: as many as the process may run at once
 };
 
 }  // namespace facemap

@@ -78,6 +78,14 @@ void ObjFaces::add_polygon_ids(std::size_t triangle_count) {
   ++polygon_count_;
 }
 
+void ObjFaces::count_triangles(std::size_t count) {
+  if (!has_polygon_ids_) {
+    polygon_count_ += static_cast<std::uint32_t>(count);
+    return;
+  }
+  for (std::size_t i = 0; i < count; ++i) mesh_.polygons.push_back(polygon_count_++);
+}
+
 void ObjFaces::finish() {
   for (const Fan& fan : waiting_) cut(fan.first_triangle, fan.corner_count, fan.line);
   waiting_.clear();

@@ -36,6 +36,9 @@ class ObjFaces {
   /// Counts a face that makes no triangle.
   void leave_out() { add_polygon_ids(0); }
 
+  /// Counts triangles that others have put at the end of Mesh::triangles; no corner has anything beside its vertex.
+  void count_triangles(std::size_t count);
+
   /// Cuts a polygon that stands in the mesh as a fan into the right triangles. Its indices must be in range.
   void cut(std::size_t first_triangle, std::size_t corner_count, std::int64_t line);
 

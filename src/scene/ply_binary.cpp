@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <optional>
 #include <type_traits>
 
 #include "scene/ply_body.h"
@@ -131,6 +132,15 @@ class PlyBinary final : public PlyBody {
     }
   }
 
+  std::uint64_t read_triangles(const PlyElement& element, const PlyFaceRow& row, std::uint64_t vertex_count,
+                               std::uint64_t most, std::vector<Corners>& triangles) override {
+    const std::optional<TriangleRow> layout = triangle_row(element, row);
+    if (!layout) return 0;
+    const std::uint64_t rows = std::min<std::uint64_t>(most, bytes_left() / layout->size);
+    return swap_ ? take_triangles<true>(*layout, rows, vertex_count, triangles)
+                 : take_triangles<false>(*layout, rows, vertex_count, triangles);
+  }
+
   void skip(const PlyElement& element) override {
     if (!element.has_lists()) {
       take_rows(element, 0, element.count);
@@ -171,6 +181,46 @@ class PlyBinary final : public PlyBody {
     const char* const begin = at_;
     at_ += size * count;
     return begin;
+  }
+
+  /// Where a triangle's indices stand in a row of the kind that nearly all files have: one list, its length in a byte,
+  /// the indices in four, and nothing else that is wanted.
+  struct TriangleRow {
+    std::size_t list;  ///< bytes before it
+    std::size_t size;  ///< of a row
+  };
+
+  static std::optional<TriangleRow> triangle_row(const PlyElement& element, const PlyFaceRow& row) {
+    TriangleRow layout{0, 0};
+    for (std::size_t i = 0; i != element.properties.size(); ++i) {
+      const PlyProperty& property = element.properties[i];
+      if (row.uses[i] == PlyFaceRow::Use::Indices) {
+        if (size_of(property.count_type) != 1 || size_of(property.type) != 4) return std::nullopt;
+        layout.list = layout.size;
+        layout.size += 1 + 3 * 4;
+      } else {
+        if (property.is_list || row.uses[i] != PlyFaceRow::Use::Skip) return std::nullopt;
+        layout.size += size_of(property.type);
+      }
+    }
+    return layout;
+  }
+
+  template <bool swap>
+  std::uint64_t take_triangles(const TriangleRow& layout, std::uint64_t rows, std::uint64_t vertex_count,
+                               std::vector<Corners>& triangles) {
+    std::uint64_t taken = 0;
+    for (; taken != rows; ++taken) {
+      const char* const list = at_ + layout.list;
+      if (list[0] != 3) break;
+      const Corners corners = {load<std::uint32_t>(list + 1, swap), load<std::uint32_t>(list + 5, swap),
+                               load<std::uint32_t>(list + 9, swap)};
+      // What is negative is above any count.
+      if (corners[0] >= vertex_count || corners[1] >= vertex_count || corners[2] >= vertex_count) break;
+      triangles.push_back(corners);
+      at_ += layout.size;
+    }
+    return taken;
   }
 
   void read_fixed_columns(const PlyElement& element, std::span<const PlyColumn> columns, std::uint64_t first,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <facemap/error.h>
+#include <facemap/mesh.h>
 
 #include <array>
 #include <cstddef>
@@ -47,6 +48,12 @@ class PlyBody {
                             std::uint64_t count) = 0;
 
   virtual void read_face(const PlyElement& element, std::uint64_t number, PlyFaceRow& row) = 0;
+
+  /// Reads as many rows from here on as are quickly known to be triangles, of vertices 0..vertex_count-1, and nothing
+  /// else that is wanted; at most `most`. Appends them to `triangles` and returns how many there are: the next row is
+  /// for read_face.
+  virtual std::uint64_t read_triangles(const PlyElement& element, const PlyFaceRow& row, std::uint64_t vertex_count,
+                                       std::uint64_t most, std::vector<Corners>& triangles) = 0;
 
   /// Reads over all rows of an element.
   virtual void skip(const PlyElement& element) = 0;

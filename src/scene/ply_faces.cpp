@@ -58,6 +58,8 @@ void PlyFaces::plan(PlyBody& body, const PlyElement& element, std::uint32_t text
 void PlyFaces::read_polygons(PlyBody& body, const PlyElement& element, std::uint32_t texture_count) {
   plan(body, element, texture_count);
   for (std::uint64_t number = 0; number != element.count; ++number) {
+    number += add_triangles(body, element, element.count - number);
+    if (number == element.count) break;
     body.read_face(element, number, row_);
     add_polygon(body, element, number);
   }
@@ -69,6 +71,17 @@ void PlyFaces::read_strips(PlyBody& body, const PlyElement& element, std::uint32
     body.read_face(element, number, row_);
     add_strip(body, element, number);
   }
+}
+
+/// Adds `rows` rows or fewer, of those that are plain triangles, and returns how many.
+std::uint64_t PlyFaces::add_triangles(PlyBody& body, const PlyElement& element, std::uint64_t rows) {
+  if (texture_count_ != 0) return 0;
+  std::vector<Corners>& triangles = model_.mesh.triangles;
+  const std::uint64_t most = std::min<std::uint64_t>(rows, limits_.max_faces - triangles.size());
+  const std::uint64_t count =
+      body.read_triangles(element, row_, static_cast<std::uint64_t>(vertex_count_), most, triangles);
+  faces_.count_triangles(count);
+  return count;
 }
 
 void PlyFaces::add_polygon(PlyBody& body, const PlyElement& element, std::uint64_t number) {

@@ -41,6 +41,7 @@ class PlyFaces {
 
  private:
   void plan(PlyBody& body, const PlyElement& element, std::uint32_t texture_count);
+  std::uint64_t add_triangles(PlyBody& body, const PlyElement& element, std::uint64_t rows);
   void add_polygon(PlyBody& body, const PlyElement& element, std::uint64_t number);
   void add_strip(PlyBody& body, const PlyElement& element, std::uint64_t number);
   std::uint32_t vertex(PlyBody& body, const PlyElement& element, std::uint64_t number, std::int64_t index) const;

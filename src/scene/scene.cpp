@@ -77,7 +77,9 @@ Scene Scene::load(const std::filesystem::path& path, int threads) {
     return scene;
   }
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  Model model = read_model(format, file->text(), path.string(), folder, ModelLimits());
+  ModelLimits model_limits;
+  model_limits.threads = threads;
+  Model model = read_model(format, file->text(), path.string(), folder, model_limits);
   file.reset();
   OBJ::Report report = report_of(model);
   Scene scene(std::move(model.mesh), std::move(model.materials), threads);

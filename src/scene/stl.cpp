@@ -54,7 +54,7 @@ Model read_stl(std::string_view bytes, const std::string& name, const ModelLimit
     read_stl_binary(bytes, name, limits, mesh, model, warnings);
   }
   if (mesh.facet_count() == 0) throw LoadError(Cause::NoFaces, name, 0, "no faces");
-  mesh.finish(warnings);
+  mesh.finish(limits.threads, warnings);
   warnings.append_to(model.warnings);
   return model;
 }

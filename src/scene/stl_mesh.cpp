@@ -8,6 +8,8 @@ namespace facemap {
 
 namespace {
 
+constexpr std::uint64_t kFewFacets = 1 << 15;  ///< below which threads cost more than they gain
+
 /// Whether the normal of a counter-clockwise triangle points the same way as `normal` (+1), the opposite way (-1), or
 /// neither (0: also if anything is not a number).
 int agreement(const Vector* corners, const Vector& normal) {
@@ -28,17 +30,18 @@ void StlMesh::add(const Vector* corners, const Vector& normal) {
   opposite_ += sign < 0;
 }
 
-void StlMesh::finish(ObjWarnings& warnings) {
+void StlMesh::finish(int threads, ObjWarnings& warnings) {
   if (opposite_ > along_) {
     warnings.add(0, "normals say the opposite of the winding, which counts",
                  std::to_string(opposite_) + " of " + std::to_string(facet_count()) + " facets");
   }
-  weld_vertices();
+  weld_vertices(threads);
 }
 
-void StlMesh::weld_vertices() {
+void StlMesh::weld_vertices(int threads) {
   Mesh& mesh = model_.mesh;
-  const std::vector<std::uint32_t> first_of_value = weld(mesh.positions, Executor(1));
+  const std::vector<std::uint32_t> first_of_value =
+      weld(mesh.positions, Executor(facet_count() < kFewFacets ? 1 : threads));
   reserve_pages(mesh.triangles, facet_count());
   std::vector<std::uint32_t> index(mesh.positions.size());  // of each position among those that stay
   std::uint32_t kept = 0;

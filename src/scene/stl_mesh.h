@@ -25,11 +25,12 @@ class StlMesh {
   /// `corners` are three, finite; `normal` is the one that the file states, of any length, or zero.
   void add(const Vector* corners, const Vector& normal);
 
-  /// Welds vertices of the same value (-0 is 0) and makes triangles. Vertices are in order of first sight.
-  void finish(ObjWarnings& warnings);
+  /// Welds vertices of the same value (-0 is 0) and makes triangles. Vertices are in order of first sight. `threads`
+  /// may work on many (0: as many as the process may run at once).
+  void finish(int threads, ObjWarnings& warnings);
 
  private:
-  void weld_vertices();
+  void weld_vertices(int threads);
 
   Model& model_;
   std::int64_t along_ = 0, opposite_ = 0;  ///< facets whose normal agrees with their winding, or does not

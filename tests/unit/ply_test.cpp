@@ -125,6 +125,44 @@ TEST(Ply, ManyRowsAreReadInBlocks) {
   for (std::uint32_t i = 0; i + 2 < kCount; ++i) ASSERT_EQ(mesh.triangles[i], (Corners{i, i + 1, i + 2}));
 }
 
+TEST(Ply, TrianglesBetweenOtherPolygonsKeepTheirNumbers) {
+  for (const bool is_big : {false, true}) {
+    const std::string head = std::string("ply\nformat binary_") + (is_big ? "big" : "little") +
+                             "_endian 1.0\nelement vertex 4\nproperty char x\nproperty char y\nproperty char z\n"
+                             "element face 6\nproperty short flags\nproperty list char uint vertex_indices\n"
+                             "property float quality\nend_header\n";
+    const std::vector<std::vector<std::uint32_t>> faces = {{0, 1, 2}, {1, 2, 3}, {0, 1, 3, 2},
+                                                           {3, 2, 1}, {0, 1},    {2, 1, 0}};
+    const auto text = [&](std::uint32_t odd) {
+      Bytes body(is_big);
+      for (const int position : {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}) body.add(static_cast<std::int8_t>(position));
+      for (const auto& face : faces) {
+        body.add(std::int16_t(3)).add(static_cast<std::int8_t>(face.size()));
+        for (const std::uint32_t corner : face) body.add(&face == &faces[3] && corner == 3 ? odd : corner);
+        body.add(0.5f);
+      }
+      return head + body.text;
+    };
+    const Mesh mesh = read(text(3)).mesh;
+    EXPECT_EQ(mesh.polygons, (std::vector<std::uint32_t>{0, 1, 2, 2, 3, 5}));
+    ASSERT_EQ(mesh.triangles.size(), 6u);
+    EXPECT_EQ(mesh.triangles[1], (Corners{1, 2, 3}));
+    EXPECT_EQ(mesh.triangles[4], (Corners{3, 2, 1}));
+    EXPECT_EQ(mesh.triangles[5], (Corners{2, 1, 0}));
+    EXPECT_EQ(refusal(text(4)).reason, "face 3 (from 0): refers to vertex 4 (from 0) of 4");
+    EXPECT_EQ(refusal(text(0xffffffffu)).reason.substr(0, 15), "face 3 (from 0)");
+    const std::string whole = text(3);
+    for (std::size_t size = whole.size() - 5 * 20; size < whole.size(); ++size) {
+      EXPECT_EQ(refusal(whole.substr(0, size)).cause, Cause::TruncatedStatement) << size;
+    }
+    ModelLimits limits;
+    limits.max_faces = 5;
+    EXPECT_EQ(refusal(whole, limits).cause, Cause::TooLarge);
+    limits.max_faces = 1;
+    EXPECT_EQ(refusal(whole, limits).cause, Cause::TooLarge);
+  }
+}
+
 TEST(Ply, FacesMayComeBeforeVertices) {
   const Mesh mesh = read(
                         "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\n"
@@ -232,7 +270,8 @@ TEST(Ply, ATextureOutsideOfTheFolderIsNotOpened) {
   std::ofstream(folder / "secret.png") << "not read";
   std::filesystem::remove(folder / "model" / "link.png");
   std::filesystem::create_symlink(folder / "secret.png", folder / "model" / "link.png");
-  for (const std::string name : {"../secret.png", (folder / "secret.png").string().c_str(), "link.png"}) {
+  const std::vector<std::string> names = {"../secret.png", (folder / "secret.png").string(), "link.png"};
+  for (const std::string& name : names) {
     const std::string text =
         "ply\nformat ascii 1.0\ncomment TextureFile " + name +
         "\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float u\nproperty float v\n"
