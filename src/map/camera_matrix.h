@@ -2,8 +2,6 @@
 
 #include <facemap/lens.h>
 
-#include <span>
-
 namespace facemap {
 
 /// Between places of a picture and OpenCV's normalized image coordinates, x to the right and y downwards, both 1 at

@@ -7,7 +7,6 @@
 #include "map/lens_model.h"
 #include "map/radial_curve.h"
 #include "math/elementary.h"
-#include "simd/floating_point_mode.h"
 
 namespace facemap {
 namespace {

@@ -20,8 +20,8 @@ double length(const MapPoint& p) { return std::sqrt(p.x * p.x + p.y * p.y); }
 
 double dot(const MapPoint& a, const MapPoint& b) { return a.x * b.x + a.y * b.y; }
 
-// cv::projectPoints without thin prism and tilt. With w = (x/z, y/z), r = |w|, q = (p2, p1) and R the radial curve, its
-// formula is F(w) = (R(r)/r + 2 q.w) w + r^2 q.
+// cv::projectPoints without thin prism and tilt. With w = (x/z, y/z) in its axes, r = |w|, q = (p2, p1) and R the
+// radial curve, its formula is F(w) = (R(r)/r + 2 q.w) w + r^2 q.
 class PinholeLens final : public LensModel {
  public:
   PinholeLens(const CameraMatrix& matrix, const PinholeDistortion& k, int width, int height)
