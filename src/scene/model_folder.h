@@ -3,12 +3,12 @@
 #include <filesystem>
 #include <string>
 
+#include "scene/uri.h"
+
 namespace facemap {
 
-/// Finds the file that a model names below the folder it lies in. Files elsewhere are not opened at the word of a
-/// model: of a name that leads out (absolute, a drive, or with ".."), the last part is looked up beside the model, and
-/// symbolic links out of the folder are not followed. Returns why there is none, or nothing; `folder` may be empty:
-/// nowhere.
-std::string find_in_folder(const std::filesystem::path& folder, const std::string& name, std::filesystem::path& found);
+/// As file_inside, of a name as programs write it: with the path of the machine where the model was made. Of a name
+/// that leads out of the folder (absolute, a drive, or with ".."), the last part is looked up beside the model.
+UriResult<std::filesystem::path> find_in_folder(const std::filesystem::path& folder, std::string name);
 
 }  // namespace facemap

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scene/model_folder.h"
+#include "scene/obj_lines.h"
 #include "scene/ply_body.h"
 #include "scene/ply_faces.h"
 #include "scene/ply_header.h"
@@ -76,13 +77,12 @@ class PlyReader {
       Material material;
       material.name = file;
       material.diffuse = Vector(1);
-      std::filesystem::path path;
-      const std::string reason = find_in_folder(directory_, file, path);
-      if (reason.empty()) {
+      const UriResult<std::filesystem::path> found = find_in_folder(directory_, file);
+      if (found.value) {
         material.diffuse_map.image = static_cast<std::uint32_t>(model_.images.size());
-        model_.images.push_back({file, path, {}});
+        model_.images.push_back({file, *found.value, {}});
       } else {
-        model_.warnings.push_back(name_ + ": " + reason);
+        model_.warnings.push_back(name_ + ": texture \"" + printable(file) + "\": " + found.reason);
       }
       model_.materials.push_back(std::move(material));
     }

@@ -257,7 +257,7 @@ TEST(Ply, TexturesAreNamedByComments) {
   ASSERT_EQ(model.materials.size(), 2u);
   EXPECT_EQ(model.materials[0].diffuse_map.image, 0u);
   EXPECT_FALSE(model.materials[1].diffuse_map.is_used());
-  EXPECT_EQ(joined(model.warnings), "a.ply: \"C:\\x\\missing.png\" is not found\n");
+  EXPECT_EQ(joined(model.warnings), "a.ply: texture \"C:\\x\\missing.png\": there is no such file\n");
   EXPECT_EQ(model.mesh.triangle_materials, (std::vector<std::uint32_t>{1, kNoIndex, 0}));
   EXPECT_EQ(model.mesh.texture_corners, (std::vector<Corners>{{0, 1, 2}, {kNoIndex, kNoIndex, kNoIndex}, {3, 4, 5}}));
   EXPECT_EQ(model.mesh.texture_coordinates[5], glm::vec2(0.5f, 1));
