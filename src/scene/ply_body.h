@@ -68,7 +68,7 @@ class PlyBody {
   /// The line of the last row, or 0 if the body is binary: for warnings.
   virtual std::int64_t line() const = 0;
 
-  /// Whether many columns are best read in blocks of rows, or row by row so that `fail` knows which is to blame.
+  /// How many rows read_columns is best asked for at a time: of a text one, so that `fail` knows the line.
   virtual std::uint64_t rows_at_once() const = 0;
 };
 
