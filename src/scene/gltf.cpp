@@ -19,8 +19,7 @@ void read_meshes(const GltfFile& file, GltfBuffers& buffers, const std::vector<s
                  const std::vector<GltfNode>& nodes, Model& model) {
   GltfAccessors accessors(file, buffers);
   GltfSurfaces surfaces(file, accessors, coordinate_sets);
-  GltfMeshBuilder builder(file, accessors, surfaces, model);
-  builder.count_uses(nodes);
+  GltfMeshBuilder builder(file, accessors, surfaces, nodes, model);
   for (const GltfNode& node : nodes) builder.add(node);
   builder.finish();
 }

@@ -19,7 +19,14 @@ Corners turned(const Corners& corners) { return {corners[0], corners[2], corners
 
 }  // namespace
 
-void GltfMeshBuilder::count_uses(const std::vector<GltfNode>& nodes) {
+GltfMeshBuilder::GltfMeshBuilder(const GltfFile& file, GltfAccessors& accessors, GltfSurfaces& surfaces,
+                                 const std::vector<GltfNode>& nodes, Model& model)
+    : file_(file),
+      accessors_(accessors),
+      surfaces_(surfaces),
+      skins_(file, accessors, nodes),
+      model_(model),
+      mesh_(model.mesh) {
   for (const GltfNode& node : nodes) {
     if (const auto index = node.value.find("mesh")) ++meshes_[index->as_index()].uses;
   }
@@ -32,11 +39,17 @@ void GltfMeshBuilder::add(const GltfNode& node) {
   KeptMesh& mesh = meshes_.at(index->as_index());
   if (!mesh.is_read) read(mesh, value);
   if (mesh.surfaces.empty()) return;
-  if (node.value.find("skin")) file_.warn(node.value, "a skin is ignored: its mesh stands as it was modelled");
   const auto object = static_cast<std::uint32_t>(model_.objects.size());
   model_.objects.push_back(node.value.text("name", value.text("name", node.value.path())));
+  const bool has_skin = node.value.find("skin").has_value();
   for (const Affine& world : instances(node)) {
-    for (const GltfSurface& surface : mesh.surfaces) add_surface(node, world, surface, object);
+    for (const GltfSurface& surface : mesh.surfaces) {
+      if (has_skin && !surface.joints.empty()) {
+        add_surface(node, Affine(), skins_.pose(node, surface), object);
+      } else {
+        add_surface(node, world, surface, object);
+      }
+    }
   }
   if (--mesh.uses == 0) mesh.surfaces = {};
 }
@@ -57,7 +70,7 @@ void GltfMeshBuilder::read(KeptMesh& mesh, const GltfValue& value) {
 /// Where the node's mesh stands: at the node, or at places beside it that three accessors list.
 std::vector<Affine> GltfMeshBuilder::instances(const GltfNode& node) {
   const std::optional<GltfValue> extension = node.value.extension("EXT_mesh_gpu_instancing");
-  if (!extension) return {node.world};
+  if (!extension || node.value.find("skin")) return {node.world};
   struct Attribute {
     const char* name;
     int components;

@@ -7,21 +7,19 @@
 #include <string>
 #include <vector>
 
-#include "scene/gltf_nodes.h"
-#include "scene/gltf_surface.h"
+#include "scene/gltf_skin.h"
 
 namespace facemap {
 
 /// Puts the meshes of a glTF file's nodes into one mesh, in world coordinates.
 class GltfMeshBuilder {
  public:
-  GltfMeshBuilder(const GltfFile& file, GltfAccessors& accessors, GltfSurfaces& surfaces, Model& model)
-      : file_(file), accessors_(accessors), surfaces_(surfaces), model_(model), mesh_(model.mesh) {}
+  /// `nodes` are those that will be added: each mesh is kept as long as one of them needs it, and no longer.
+  GltfMeshBuilder(const GltfFile& file, GltfAccessors& accessors, GltfSurfaces& surfaces,
+                  const std::vector<GltfNode>& nodes, Model& model);
 
-  /// Tells how often each mesh will be added, so that it is kept in between and no longer.
-  void count_uses(const std::vector<GltfNode>& nodes);
-
-  /// Adds the node's mesh as an object: once, or once for each of its instances (EXT_mesh_gpu_instancing).
+  /// Adds the node's mesh as an object: once, or once for each of its instances (EXT_mesh_gpu_instancing). What hangs
+  /// on a skin stands where the skin's joints put it.
   void add(const GltfNode& node);
 
   /// Completes the arrays that only some surfaces had values for.
@@ -46,6 +44,7 @@ class GltfMeshBuilder {
   const GltfFile& file_;
   GltfAccessors& accessors_;
   GltfSurfaces& surfaces_;
+  GltfSkins skins_;
   Model& model_;
   Mesh& mesh_;
   std::map<std::uint32_t, KeptMesh> meshes_;

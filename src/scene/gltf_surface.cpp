@@ -183,6 +183,7 @@ void GltfSurfaces::read_attributes(const GltfValue& attributes, const std::vecto
   if (const GltfAccessor* const coordinates = open(attributes, set, count, 2, 2)) {
     surface.texture_coordinates = read_pairs(*coordinates, vertices);
   }
+  read_joints(attributes, vertices, count, surface);
   const GltfAccessor* const colours = open(attributes, "COLOR_0", count, 3, 4);
   if (colours == nullptr) return;
   surface.colours = read_vectors(*colours, vertices);
@@ -190,6 +191,25 @@ void GltfSurfaces::read_attributes(const GltfValue& attributes, const std::vecto
     for (int i = 0; i < 3; ++i) colour[i] = std::clamp(colour[i], 0.0f, 1.0f);
   }
   if (has_translucent(*colours, vertices)) file_.warn(attributes, "the alpha of vertices' colours is ignored");
+}
+
+void GltfSurfaces::read_joints(const GltfValue& attributes, const std::vector<std::uint32_t>& vertices,
+                               std::uint32_t vertex_count, GltfSurface& surface) {
+  const GltfAccessor* const joints = open(attributes, "JOINTS_0", vertex_count, 4, 4);
+  const GltfAccessor* const weights = open(attributes, "WEIGHTS_0", vertex_count, 4, 4);
+  if (joints == nullptr || weights == nullptr) return;
+  if (joints->type() != GltfAccessor::Type::Uint8 && joints->type() != GltfAccessor::Type::Uint16) {
+    joints->fail(Cause::BadValue, "joints have to be unsigned integers of 8 or 16 bits");
+  }
+  if (attributes.find("JOINTS_1")) file_.warn(attributes, "a vertex hangs on its first four joints alone");
+  surface.joints.reserve(vertices.size());
+  for (const std::uint32_t vertex : vertices) {
+    GltfSurface::Joints& hold = surface.joints.emplace_back();
+    for (int k = 0; k < 4; ++k) {
+      hold.joints[k] = static_cast<std::uint16_t>(joints->number(vertex, k));
+      hold.weights[k] = finite_or_zero(weights->number(vertex, k));
+    }
+  }
 }
 
 std::uint32_t GltfSurfaces::coordinate_set(std::uint32_t material) const {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <glm/geometric.hpp>
 #include <string_view>
 #include <utility>
 
@@ -24,6 +25,9 @@ void check(facemap::Model model, const facemap::ModelLimits& limits) {
                                   &material.normal_map, &material.emission_map, &material.specular_map}) {
       if (map->is_used() && map->image >= model.images.size()) std::abort();
     }
+  }
+  for (const facemap::Vector& normal : model.mesh.normals) {
+    if (!(glm::dot(normal, normal) < 2)) std::abort();
   }
   // Throws Error if an index or a position is wrong.
   const facemap::Scene scene(std::move(model.mesh), std::move(model.materials));

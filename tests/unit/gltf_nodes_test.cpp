@@ -99,6 +99,32 @@ TEST(GltfNodes, RefuseProjections) {
                  "nodes[0].scale[2]: is not a number");
 }
 
+TEST(GltfNodes, MoveWhatHangsOnThemAsJoints) {
+  GltfText gltf = triangle_text();
+  gltf.accessor(bytes_of<std::uint8_t>({0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0}), kUint8, "VEC4", 3);
+  gltf.accessor(bytes_of<float>({1, 0, 0, 0, 2, 0, 0, 0, 0.25f, 0.75f, 0, 0}), kFloat32, "VEC4", 3);
+  gltf.accessor(bytes_of<float>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 7, 1,    // moves by z = 7
+                                 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}),  // moves nothing
+                kFloat32, "MAT4", 2);
+  const auto read_skin = [&](const std::string& joints) {
+    return read_gltf(
+        gltf.text("\"nodes\":[{\"mesh\":0,\"skin\":0,\"translation\":[99,99,99]},{\"translation\":[0,0,1]},"
+                  "{\"scale\":[-4,4,4]}],\"skins\":[{\"joints\":" +
+                  joints +
+                  ",\"inverseBindMatrices\":3}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,"
+                  "\"JOINTS_0\":1,\"WEIGHTS_0\":2}}]}]"),
+        "t.gltf", ".");
+  };
+  const Mesh mesh = read_skin("[1,2]").mesh;
+  // The last is a quarter of (0, 1, 8) and three quarters of (0, 4, 0).
+  EXPECT_EQ(mesh.positions, (std::vector<Vector>{{0, 0, 8}, {-4, 0, 0}, {0, 3.25f, 2}}));
+  EXPECT_EQ(mesh.triangles[0], (Corners{0, 1, 2}));
+  EXPECT_EQ(read_skin("[2,1]").mesh.triangles[0], (Corners{0, 2, 1}));  // mirrored
+  EXPECT_THROW(read_skin("[1]"), LoadError);                            // no joint 1
+  EXPECT_THROW(read_skin("[1,7]"), LoadError);                          // no node 7
+  EXPECT_THROW(read_skin("[1,2,0]"), LoadError);                        // two matrices
+}
+
 TEST(GltfNodes, CarryLights) {
   const Model model = read(
       "\"nodes\":[{\"mesh\":0},{\"translation\":[1,2,3],\"scale\":[7,7,7],\"rotation\":[0,1,0,1],"
