@@ -30,6 +30,29 @@ Corners triangle(Mode mode, std::uint32_t i) {
   return {i + 1, i + 2, 0};
 }
 
+/// Corners of so many triangles.
+std::uint64_t corner_count(Mode mode, std::uint64_t triangles) {
+  if (mode == Mode::Triangles) return 3 * triangles;
+  return triangles == 0 ? 0 : triangles + 2;
+}
+
+std::vector<Corners> list_triangles(Mode mode, std::uint32_t count, const std::vector<std::uint32_t>& corners) {
+  std::vector<Corners> triangles(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Corners places = triangle(mode, i);
+    triangles[i] = {corners[places[0]], corners[places[1]], corners[places[2]]};
+  }
+  return triangles;
+}
+
+/// None for points and lines.
+std::optional<Mode> mode_of(const GltfValue& primitive) {
+  const std::uint64_t mode = primitive.integer("mode", 4);
+  if (mode > 6) primitive.at("mode").fail(Cause::BadValue, "is not one of 0 to 6");
+  if (mode < 4) return std::nullopt;
+  return static_cast<Mode>(mode);
+}
+
 DVector vector_at(const GltfAccessor& accessor, std::uint32_t i) {
   return {accessor.number(i, 0), accessor.number(i, 1), accessor.number(i, 2)};
 }
@@ -75,40 +98,33 @@ bool has_translucent(const GltfAccessor& colours, const std::vector<std::uint32_
 
 GltfSurface GltfSurfaces::read(const GltfValue& primitive) {
   GltfSurface surface;
-  const std::uint64_t mode_number = primitive.integer("mode", 4);
-  if (mode_number > 6) primitive.at("mode").fail(Cause::BadValue, "is not one of 0 to 6");
-  if (mode_number < 4) {
-    file_.warn(primitive, "points and lines are left out");
-    return surface;
-  }
-  const Mode mode = static_cast<Mode>(mode_number);
   const GltfValue attributes = primitive.at("attributes");
   const std::optional<GltfValue> position = attributes.find("POSITION");
-  if (!position) {
-    file_.warn(primitive, "a surface without positions is left out");
+  const std::optional<Mode> mode = mode_of(primitive);
+  if (!mode || !position) {
+    file_.warn(primitive, "points, lines, and surfaces without positions are left out");
     return surface;
   }
   if (const auto material = primitive.find("material")) {
     surface.material = material->as_index();
-    file_.root.element("materials", surface.material, *material);
+    file_.root.element("materials", surface.material, *material);  // throws if there is none
   }
   const std::uint32_t vertex_count = accessors_.open(position->as_index(), *position).count();
   std::vector<std::uint32_t> corners = read_corners(primitive, vertex_count);
-  const std::uint64_t count = triangle_count(mode, corners.size());
-  if (mode == Mode::Triangles && corners.size() % 3 != 0) file_.warn(primitive, "corners that make no triangle");
-  if (count > file_.limits.max_faces) {
-    primitive.fail(Cause::TooLarge, "more than " + std::to_string(file_.limits.max_faces) + " triangles");
-  }
-  corners.resize(count == 0 ? 0 : mode == Mode::Triangles ? 3 * count : count + 2);
+  const std::uint64_t count = triangle_count(*mode, corners.size());
+  if (*mode == Mode::Triangles && corners.size() % 3 != 0) file_.warn(primitive, "corners that make no triangle");
+  check_count(primitive, count);
+  corners.resize(corner_count(*mode, count));
   const std::vector<std::uint32_t> vertices = number_anew(corners, vertex_count);
-  surface.triangles.reserve(count);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const Corners places = triangle(mode, i);
-    surface.triangles.push_back({corners[places[0]], corners[places[1]], corners[places[2]]});
-  }
+  surface.triangles = list_triangles(*mode, static_cast<std::uint32_t>(count), corners);
   read_attributes(attributes, vertices, surface);
   if (primitive.count("targets") > 0) file_.warn(primitive, "morph targets are ignored");
   return surface;
+}
+
+void GltfSurfaces::check_count(const GltfValue& primitive, std::uint64_t triangles) const {
+  if (triangles <= file_.limits.max_faces) return;
+  primitive.fail(Cause::TooLarge, "more than " + std::to_string(file_.limits.max_faces) + " triangles");
 }
 
 /// The vertex of each corner; without indices they follow each other.
@@ -116,9 +132,7 @@ std::vector<std::uint32_t> GltfSurfaces::read_corners(const GltfValue& primitive
   std::vector<std::uint32_t> corners;
   const std::optional<GltfValue> index = primitive.find("indices");
   if (!index) {
-    if (vertex_count / 3 > file_.limits.max_faces) {
-      primitive.fail(Cause::TooLarge, "more than " + std::to_string(file_.limits.max_faces) + " triangles");
-    }
+    check_count(primitive, vertex_count / 3);
     corners.resize(vertex_count);
     for (std::uint32_t i = 0; i < vertex_count; ++i) corners[i] = i;
     return corners;

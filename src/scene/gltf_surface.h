@@ -40,6 +40,7 @@ class GltfSurfaces {
   GltfSurface read(const GltfValue& primitive);
 
  private:
+  void check_count(const GltfValue& primitive, std::uint64_t triangles) const;
   std::vector<std::uint32_t> read_corners(const GltfValue& primitive, std::uint32_t vertex_count);
   std::vector<std::uint32_t> number_anew(std::vector<std::uint32_t>& corners, std::uint32_t vertex_count);
   void read_attributes(const GltfValue& attributes, const std::vector<std::uint32_t>& vertices, GltfSurface& surface);
