@@ -3,12 +3,11 @@
 #include <facemap/texture.h>
 #include <facemap/vector.h>
 
-#include <map>
 #include <string>
 
 namespace facemap {
 
-/// What a surface is made of, as an MTL file or a glTF model states it; shading does not use it yet.
+/// What a surface is made of, as an MTL file or a glTF model states it. docs/materials.md says how it is shaded.
 struct Material {
   enum class Kind {
     Phong,       ///< diffuse and Blinn-Phong highlights (MTL)
@@ -20,17 +19,16 @@ struct Material {
     Blend,  ///< translucent
   };
 
-  std::string name;                             ///< newmtl
-  Vector ambient{0};                            ///< Ka
-  Vector diffuse{0.8f};                         ///< Kd, linear RGB
-  Vector specular{0};                           ///< Ks
-  Vector emission{0};                           ///< Ke
-  float shininess = 0;                          ///< Ns
-  float optical_density = 1;                    ///< Ni
-  float opacity = 1;                            ///< d, or 1 - Tr
-  int illumination = 2;                         ///< illum
-  std::map<std::string, std::string> textures;  ///< map_Kd and the like: statement -> file name as written
-
+  std::string name;           ///< newmtl
+  Vector ambient{0};          ///< Ka; not used
+  Vector diffuse{0.8f};       ///< Kd, linear RGB
+  Vector specular{0};         ///< Ks
+  Vector emission{0};         ///< Ke
+  float shininess = 0;        ///< Ns; 0: no highlight
+  float optical_density = 1;  ///< Ni
+  float opacity = 1;          ///< d, or 1 - Tr
+  bool is_halo = false;       ///< d -halo: more opaque towards the silhouette; not used
+  int illumination = 2;       ///< illum; below 2: no highlight
   Kind kind = Kind::Phong;
   float metallic = 0;   ///< 0..1
   float roughness = 1;  ///< 0..1
@@ -41,11 +39,12 @@ struct Material {
   TextureUse diffuse_map;    ///< times `diffuse`, sRGB; its alpha times `opacity` unless there is an opacity_map
   TextureUse opacity_map;    ///< times `opacity`
   TextureUse specular_map;   ///< times `specular`, sRGB
+  TextureUse shininess_map;  ///< times `shininess`
   TextureUse emission_map;   ///< times `emission`, sRGB
   TextureUse metallic_map;   ///< times `metallic`
   TextureUse roughness_map;  ///< times `roughness`
-  TextureUse normal_map;     ///< tangent space, +y up the v axis
-  TextureUse bump_map;       ///< heights
+  TextureUse normal_map;     ///< tangent space, +x right and +y up in the image
+  TextureUse bump_map;       ///< heights; unless there is a normal_map
 };
 
 }  // namespace facemap

@@ -41,6 +41,7 @@ struct ModelLimits {
   std::uint64_t max_bytes = std::uint64_t{1} << 36;  ///< of the file, and of all that it names
   std::uint64_t max_faces = 0x7fffffff;              ///< triangles; a face id is an int32
   int threads = 0;                                   ///< that may read; 0: as many as the process may run at once
+  bool allow_outside = false;                        ///< files that it names may lie outside its folder
 };
 
 }  // namespace facemap

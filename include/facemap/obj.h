@@ -51,6 +51,7 @@ class OBJ {
     std::uint64_t max_bytes = std::uint64_t{1} << 36;
     std::uint64_t max_faces = 0x7fffffff;  ///< triangles; a face id is an int32
     int threads = 0;                       ///< that may read; 0: as many as the process may run at once
+    bool allow_outside = false;            ///< textures may lie outside the model's folder
   };
 
   /// Reads `path` and the MTL files that it names (beside it; an absent or broken one is a warning).
@@ -66,6 +67,7 @@ class OBJ {
   const Mesh& mesh() const& noexcept { return mesh_; }
   Mesh&& mesh() && noexcept { return std::move(mesh_); }
   const std::vector<Material>& materials() const noexcept { return materials_; }
+  const std::vector<TextureImage>& images() const noexcept { return images_; }
   const Report& report() const noexcept { return report_; }
 
   /// All faces by value, in order of their id.
@@ -76,6 +78,7 @@ class OBJ {
 
   Mesh mesh_;
   std::vector<Material> materials_;
+  std::vector<TextureImage> images_;
   Report report_;
 };
 

@@ -63,6 +63,11 @@ class Renderer {
     bool shadow_terminator_fix = true;  ///< Hanika 2021; matters with smooth normals only
     Falloff falloff = Falloff::Constant;
     Color background{0, 0, 0};  ///< linear RGB
+    bool materials = true;      ///< the model's materials, textures and vertex colours; else all is white
+    Color ambient{0, 0, 0};     ///< light from everywhere, which nothing hides
+    Color sky_up{0, 0, 0}, sky_down{0, 0, 0};  ///< the same from above and below, mixed by the shading normal
+    Vector up{0, 1, 0};                        ///< where above is
+    std::uint64_t max_texture_pixels = std::uint64_t{1} << 26;  ///< an image of more is left out, with a warning
     Builder builder = Builder::Cover;
     bool want_ids = false, want_depths = false, want_lights = false;  ///< planes to fill
     Strategy strategy = Strategy::Auto;
@@ -82,6 +87,7 @@ class Renderer {
     std::string reason;                  ///< why
     std::string target;                  ///< instruction set of the kernels
     int threads = 1;
+    std::vector<std::string> warnings;  ///< textures that could not be read: "file: reason"
   };
 
   /// Fraction done (0..1) and the phase's name; called now and then, by one thread at a time, not always the caller's.
@@ -113,6 +119,7 @@ class Renderer {
   Image make(const Request& request);
   Image paint_by_lists(const Request& request);
   void build_lists(const Request& request);
+  void load_materials();
 
   const Scene* scene_;
   View view_;

@@ -2,6 +2,7 @@
 
 #include <facemap/material.h>
 #include <facemap/mesh.h>
+#include <facemap/model.h>
 #include <facemap/obj.h>
 
 #include <cstdint>
@@ -26,8 +27,13 @@ struct OddFaces {
 class Scene {
  public:
   /// Takes a mesh. Throws Error if a position is not finite, an index is out of range or no face is given. `threads`
-  /// may work on a large one (0: as many as the process may run at once); the scene does not depend on them.
+  /// may work on a large one (0: as many as the process may run at once); the scene does not depend on them. There are
+  /// no images: the materials' maps are left out.
   explicit Scene(Mesh mesh, std::vector<Material> materials = {}, int threads = 0);
+
+  /// Takes a model's mesh, materials, images and warnings. Throws Error as above, and if a material names an image
+  /// that is not there.
+  explicit Scene(Model model, int threads = 0);
 
   /// Reads a model file: OBJ, glTF, PLY or STL, by its content, or by its name where that does not say. Throws
   /// LoadError.
@@ -35,6 +41,7 @@ class Scene {
 
   const Mesh& mesh() const noexcept { return mesh_; }
   const std::vector<Material>& materials() const noexcept { return materials_; }
+  const std::vector<TextureImage>& images() const noexcept { return images_; }  ///< that materials name, not decoded
   const OddFaces& odd_faces() const noexcept { return odd_; }
   const OBJ::Report& report() const noexcept { return report_; }
 
@@ -60,7 +67,8 @@ class Scene {
 
  private:
   /// The same, and adds normals to the mesh where smoothing groups ask for them.
-  Scene(Mesh mesh, std::vector<Material> materials, const std::vector<SmoothingRun>& smoothing, int threads);
+  Scene(Mesh mesh, std::vector<Material> materials, std::vector<TextureImage> images,
+        const std::vector<SmoothingRun>& smoothing, int threads);
 
   void examine_faces(const Executor& executor);
   void list_kept_faces(const Executor& executor);
@@ -68,6 +76,7 @@ class Scene {
 
   Mesh mesh_;
   std::vector<Material> materials_;
+  std::vector<TextureImage> images_;
   OBJ::Report report_;
   OddFaces odd_;
   std::vector<std::uint32_t> welded_;

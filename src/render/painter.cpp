@@ -10,7 +10,7 @@ constexpr int kRowsPerReport = 8;
 }  // namespace
 
 Painter::Painter(const Camera& camera, std::span<const PointLight> lights, const Renderer::Options& options,
-                 const Executor& executor, Report report)
+                 const MaterialTable* materials, const Executor& executor, Report report)
     : camera_(camera), options_(options), executor_(executor), report_(std::move(report)) {
   image_.width = options.width;
   image_.height = options.height;
@@ -21,7 +21,9 @@ Painter::Painter(const Camera& camera, std::span<const PointLight> lights, const
   if (options.want_ids || edges) image_.ids.resize(pixels);
   if (options.want_depths) image_.depths.resize(pixels);
   if (options.want_lights || edges) image_.lights.resize(pixels * static_cast<std::size_t>(image_.light_bytes()));
-  for (int i = 0; i < executor.threads(); ++i) workers_.push_back(std::make_unique<Worker>(camera, lights, options));
+  for (int i = 0; i < executor.threads(); ++i) {
+    workers_.push_back(std::make_unique<Worker>(camera, lights, options, materials));
+  }
 }
 
 Image Painter::paint(Renderer::Statistics& statistics) {
@@ -61,7 +63,7 @@ void Painter::paint_row(int y, int samples, Worker& worker) {
     const std::size_t pixel = index(x, y);
     if (!centre_is_sampled) image_.pixels[pixel] = mean_of_grid(x, y, samples, worker);
     if (!centre_is_sampled && !wants_planes) continue;
-    worker.shader.shade(MapPoint(x + 0.5, y + 0.5), worker.sample);
+    worker.shader.shade(MapPoint(x + 0.5, y + 0.5), 1, worker.sample);
     if (centre_is_sampled) image_.pixels[pixel] = worker.sample.color;
     store_planes(pixel, worker.sample);
   }
@@ -80,7 +82,8 @@ Color Painter::mean_of_grid(int x, int y, int samples, Worker& worker) {
   double r = 0, g = 0, b = 0;
   for (int j = 0; j < samples; ++j) {
     for (int i = 0; i < samples; ++i) {
-      worker.shader.shade(MapPoint(x + (i + 0.5) / samples, y + (j + 0.5) / samples), worker.grid_sample);
+      worker.shader.shade(MapPoint(x + (i + 0.5) / samples, y + (j + 0.5) / samples), 1.0 / samples,
+                          worker.grid_sample);
       r += worker.grid_sample.color.r;
       g += worker.grid_sample.color.g;
       b += worker.grid_sample.color.b;

@@ -22,7 +22,7 @@ class Painter {
   using Report = std::function<void(double)>;
 
   Painter(const Camera& camera, std::span<const PointLight> lights, const Renderer::Options& options,
-          const Executor& executor, Report report);
+          const MaterialTable* materials, const Executor& executor, Report report);
 
   /// Call once. Adds queries, tests and upsampled pixels to `statistics`.
   Image paint(Renderer::Statistics& statistics);
@@ -33,8 +33,9 @@ class Painter {
     Shader shader;
     Sample sample, grid_sample;
 
-    Worker(const Camera& camera, std::span<const PointLight> lights, const Renderer::Options& options)
-        : shader(camera, lights, options, statistics) {}
+    Worker(const Camera& camera, std::span<const PointLight> lights, const Renderer::Options& options,
+           const MaterialTable* materials)
+        : shader(camera, lights, options, statistics, materials) {}
   };
 
   void for_each_row(double done_before, double share, const std::function<void(int y, Worker&)>& paint_row);

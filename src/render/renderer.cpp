@@ -7,6 +7,8 @@
 #include <mutex>
 #include <optional>
 
+#include "material/material_table.h"
+#include "math/dvector.h"
 #include "parallel/executor.h"
 #include "render/cost_model.h"
 #include "render/painter.h"
@@ -25,6 +27,11 @@ bool is_valid(const Color& c) {
 void validate(const Renderer::Options& options, const std::vector<Light>& lights) {
   if (options.samples < 1 || options.samples > 16) throw Error("samples a side of a pixel must be 1 to 16");
   if (!is_valid(options.background)) throw Error("background must be finite and not negative");
+  if (!is_valid(options.ambient) || !is_valid(options.sky_up) || !is_valid(options.sky_down)) {
+    throw Error("ambient and sky colours must be finite and not negative");
+  }
+  const double up = length(DVector(options.up));
+  if (!(up > 0) || !std::isfinite(up)) throw Error("the up direction must be finite and not zero");
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (lights[i].kind != Light::Kind::Point) throw Error("light " + std::to_string(i) + " is not a point light");
     const Vector& p = lights[i].position;
@@ -46,6 +53,7 @@ struct Renderer::Kept {
   std::mutex reporting;
   std::vector<PointLight> lists;  // empty until built
   TransposedState transposed;
+  std::unique_ptr<MaterialTable> materials;      // made when colours are first wanted
   double spent_in_vain = 0, lost_to_bounds = 0;  // see PictureWork
 };
 
@@ -111,13 +119,15 @@ Image Renderer::make(const Request& request) {
   statistics_.reason = choice.reason;
   statistics_.target = simd::name_of(simd::active_target());
   statistics_.threads = kept_->executor.threads();
+  if (request.wants_colours) load_materials();
   const bool by_lists = choice.strategy == Strategy::Lists;
   if (by_lists) build_lists(request);
   // The paper's renderer, sample by sample: what its builder and its way of sampling need.
   if (options.builder == Builder::Fill || options.sampling == Sampling::Edges) return paint_by_lists(request);
 
   WholePicture picture(*scene_, view_, lights_, options, kept_->executor, kept_->transposed,
-                       by_lists ? &kept_->lists : nullptr, choice.keeps_bounds, statistics_, request.report);
+                       by_lists ? &kept_->lists : nullptr, choice.keeps_bounds, kept_->materials.get(), statistics_,
+                       request.report);
   Image image = request.wants_colours ? picture.paint() : picture.look();
   if (!by_lists) {
     const PictureCost cost = estimate_cost(work);
@@ -127,6 +137,16 @@ Image Renderer::make(const Request& request) {
     for (const ShadowScratch& scratch : kept_->transposed.scratch) statistics_.map_bytes += scratch.memory_bytes();
   }
   return image;
+}
+
+void Renderer::load_materials() {
+  if (!options_.materials || !MaterialTable::is_needed(*scene_)) return;
+  const Stopwatch time;
+  if (kept_->materials == nullptr) {
+    kept_->materials = std::make_unique<MaterialTable>(*scene_, options_.max_texture_pixels, kept_->executor);
+  }
+  statistics_.warnings = kept_->materials->warnings();
+  statistics_.shade_ms += time.milliseconds();
 }
 
 void Renderer::build_lists(const Request& request) {
@@ -165,10 +185,10 @@ Image Renderer::paint_by_lists(const Request& request) {
   statistics_.map_bytes += camera.memory_bytes();
 
   const Stopwatch shade_time;
-  Painter painter(camera, kept_->lists, request.options, kept_->executor,
+  Painter painter(camera, kept_->lists, request.options, kept_->materials.get(), kept_->executor,
                   [&](double fraction) { request.report(fraction, "shade"); });
   Image image = painter.paint(statistics_);
-  statistics_.shade_ms = shade_time.milliseconds();
+  statistics_.shade_ms += shade_time.milliseconds();
   return image;
 }
 

@@ -5,6 +5,8 @@
 
 #include "math/dvector.h"
 #include "math/exact_sign.h"
+#include "render/lit_surface.h"
+#include "render/neighbour_rays.h"
 
 namespace facemap {
 namespace {
@@ -15,25 +17,11 @@ double largest_coordinate(const DVector (&v)[3]) {
   return largest;
 }
 
-// Where the line from K along d meets the plane; a ray so grazing that its slope rounds to zero gets the corner.
-DVector point_on_plane(const DVector& K, const DVector& d, const DVector& corner, const DVector& n) {
-  const double t = dot(n, corner - K) / dot(n, d);
-  return std::isfinite(t) ? K + d * t : corner;
-}
-
-// Weights of the corners at a point of the plane, not below 0 and of sum 1.
-DVector barycentric(const DVector (&v)[3], const DVector& n, const DVector& p) {
-  DVector weights(std::max(0.0, dot(n, cross(v[2] - v[1], p - v[1]))),
-                  std::max(0.0, dot(n, cross(v[0] - v[2], p - v[2]))),
-                  std::max(0.0, dot(n, cross(v[1] - v[0], p - v[0]))));
-  const double sum = weights.x + weights.y + weights.z;
-  return sum > 0 ? weights * (1 / sum) : DVector(1.0 / 3);
-}
-
 }  // namespace
 
 struct Shader::Surface {
   SurfacePoint point;
+  DVector weights;        // of the corners
   DVector position;       // of the true point, rounded to double
   DVector normal;         // unit, on the camera's side
   bool is_moved = false;  // by the shadow terminator fix: `moved` is asked instead of the true point
@@ -41,17 +29,24 @@ struct Shader::Surface {
 };
 
 Shader::Shader(const Camera& camera, std::span<const PointLight> lights, const Renderer::Options& options,
-               Renderer::Statistics& statistics)
-    : camera_(camera), lights_(lights), options_(options), statistics_(statistics) {}
+               Renderer::Statistics& statistics, const MaterialTable* materials)
+    : camera_(camera),
+      lights_(lights),
+      options_(options),
+      statistics_(statistics),
+      materials_(materials),
+      surroundings_(options) {}
 
 Shader::Surface Shader::surface_at(const Vector& direction, const Camera::Hit& hit) const {
   Surface surface;
   surface.point = camera_.surface_point(direction, hit);
   const Face face = camera_.scene().mesh().face(static_cast<std::size_t>(hit.face));
-  const DVector v[3] = {DVector(face.vertices[0]), DVector(face.vertices[1]), DVector(face.vertices[2])};
-  const DVector n = cross(v[1] - v[0], v[2] - v[0]);
-  const DVector weights = barycentric(v, n, point_on_plane(DVector(camera_.position()), DVector(direction), v[0], n));
-  surface.position = v[0] * weights.x + v[1] * weights.y + v[2] * weights.z;
+  const FaceCorners corners = corners_of(camera_.scene().mesh(), static_cast<std::size_t>(hit.face));
+  const auto& [v, n] = corners;
+  const DVector weights =
+      barycentric(corners, point_on_plane(corners, DVector(camera_.position()), DVector(direction)));
+  surface.weights = weights;
+  surface.position = weighted(v, weights);
   // s < 0: the face is turned towards the camera, its normal with it.
   const DVector towards_camera = normalized(n) * (hit.side < 0 ? 1.0 : -1.0);
   surface.normal = towards_camera;
@@ -92,7 +87,51 @@ bool Shader::is_lit(const PointLight& light, const Surface& surface) {
                           : light.get_lighten_up(surface.point, &statistics_.light_tests);
 }
 
-void Shader::shade(const MapPoint& point, Sample& sample) {
+// Calls add(light) for each light that reaches the surface, in order, and sets its bit.
+template <class Add>
+void Shader::for_each_lit(const Surface& surface, Sample& sample, const Add& add) {
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
+    if (!is_lit(lights_[i], surface)) continue;
+    sample.lights[i / 8] = static_cast<std::uint8_t>(sample.lights[i / 8] | (1u << (i % 8)));
+    add(lights_[i]);
+  }
+}
+
+DVector Shader::white_radiance(const Surface& surface, Sample& sample) {
+  DVector radiance = surroundings_.are_dark() ? DVector(0) : surroundings_.at(surface.normal);
+  for_each_lit(surface, sample, [&](const PointLight& light) {
+    const DVector to_light = DVector(light.position()) - surface.position;
+    const double squared = dot(to_light, to_light);
+    if (!(squared > 0)) return;
+    const double cosine = dot(surface.normal, to_light) / std::sqrt(squared);
+    if (!(cosine > 0)) return;
+    const double strength =
+        light.intensity * cosine * (options_.falloff == Renderer::Falloff::InverseSquare ? 1 / squared : 1);
+    radiance += DVector(light.color.r, light.color.g, light.color.b) * strength;
+  });
+  return radiance;
+}
+
+DVector Shader::material_radiance(const Surface& surface, const MapPoint& point, double step, Sample& sample) {
+  SeenSurface seen;
+  seen.face = static_cast<std::uint32_t>(sample.face);
+  seen.weights = surface.weights;
+  seen.normal = surface.normal;
+  seen.is_behind = surface.point.side > 0;
+  seen.camera = DVector(camera_.position());
+  seen.rays.through = surface.point.direction;
+  if (materials_->has_textures(seen.face)) set_neighbours(camera_, camera_.projection(), point, step, seen.rays);
+  const SurfaceLook look = materials_->look(seen, frame_);
+  LitSurface lit(seen, look, surface.position, surroundings_);
+  const bool inverse_square = options_.falloff == Renderer::Falloff::InverseSquare;
+  for_each_lit(surface, sample, [&](const PointLight& light) {
+    lit.add(DVector(light.position()), DVector(light.color.r, light.color.g, light.color.b), light.intensity,
+            inverse_square);
+  });
+  return lit.radiance();
+}
+
+void Shader::shade(const MapPoint& point, double step, Sample& sample) {
   sample.lights.assign((lights_.size() + 7) / 8, 0);
   sample.color = options_.background;
   const Vector direction = camera_.direction_through(point);
@@ -103,20 +142,8 @@ void Shader::shade(const MapPoint& point, Sample& sample) {
   if (!hit) return;
 
   const Surface surface = surface_at(direction, hit);
-  DVector radiance(0);
-  for (std::size_t i = 0; i < lights_.size(); ++i) {
-    const PointLight& light = lights_[i];
-    if (!is_lit(light, surface)) continue;
-    sample.lights[i / 8] = static_cast<std::uint8_t>(sample.lights[i / 8] | (1u << (i % 8)));
-    const DVector to_light = DVector(light.position()) - surface.position;
-    const double squared = dot(to_light, to_light);
-    if (!(squared > 0)) continue;
-    const double cosine = dot(surface.normal, to_light) / std::sqrt(squared);
-    if (!(cosine > 0)) continue;
-    const double strength =
-        light.intensity * cosine * (options_.falloff == Renderer::Falloff::InverseSquare ? 1 / squared : 1);
-    radiance += DVector(light.color.r, light.color.g, light.color.b) * strength;
-  }
+  const DVector radiance =
+      materials_ == nullptr ? white_radiance(surface, sample) : material_radiance(surface, point, step, sample);
   sample.color = {static_cast<float>(radiance.x), static_cast<float>(radiance.y), static_cast<float>(radiance.z)};
 }
 

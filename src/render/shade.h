@@ -6,6 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "material/material_table.h"
+#include "render/surroundings.h"
+
 namespace facemap {
 
 /// What one ray of a picture brings back.
@@ -16,7 +19,8 @@ struct Sample {
   std::vector<std::uint8_t> lights;  ///< as Image::lights, one pixel
 };
 
-/// White mode: albedo 1; radiance = sum over lights, in index order, of colour * intensity * cos * falloff.
+/// White mode: albedo 1; radiance = ambient and sky light, and the sum over lights, in index order, of colour *
+/// intensity * cos * falloff. With materials each light is multiplied by what the surface sends on (docs/materials.md).
 class Shader {
  public:
   /// Lifts below this share of the face's largest coordinate are noise: normals and the lifted point are rounded to
@@ -24,20 +28,28 @@ class Shader {
   static constexpr double kLeastLift = 0x1p-23;
 
   Shader(const Camera& camera, std::span<const PointLight> lights, const Renderer::Options& options,
-         Renderer::Statistics& statistics);
+         Renderer::Statistics& statistics, const MaterialTable* materials = nullptr);
 
-  /// The sample along the ray through a map point; writes over `sample`, whose memory is used again.
-  void shade(const MapPoint& point, Sample& sample);
+  /// The sample along the ray through a map point; writes over `sample`, whose memory is used again. `step`: to the
+  /// next sample to the right and down, in pixels, which textures are filtered for.
+  void shade(const MapPoint& point, double step, Sample& sample);
 
  private:
   struct Surface;
   Surface surface_at(const Vector& direction, const Camera::Hit& hit) const;
   bool is_lit(const PointLight& light, const Surface& surface);
+  template <class Add>
+  void for_each_lit(const Surface& surface, Sample& sample, const Add& add);
+  DVector white_radiance(const Surface& surface, Sample& sample);
+  DVector material_radiance(const Surface& surface, const MapPoint& point, double step, Sample& sample);
 
   const Camera& camera_;
   std::span<const PointLight> lights_;
   const Renderer::Options& options_;
   Renderer::Statistics& statistics_;
+  const MaterialTable* materials_;  // null: all is white
+  Surroundings surroundings_;
+  FaceFrame frame_;
 };
 
 }  // namespace facemap

@@ -17,12 +17,25 @@ bool has_all(const Corners& normals) { return std::max({normals[0], normals[1], 
 
 bool is_finite(const Vector& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
+DVector at(const double (&numbers)[3]) { return {numbers[0], numbers[1], numbers[2]}; }
+
+DVector at(const double (&numbers)[3][simd::kSeenBatch], std::size_t i) {
+  return {numbers[0][i], numbers[1][i], numbers[2][i]};
+}
+
+void store(const DVector& v, double (&numbers)[3][simd::kSeenBatch], std::size_t i) {
+  for (int k = 0; k < 3; ++k) numbers[k][i] = v[k];
+}
+
 }  // namespace
 
-ShadeBatch::ShadeBatch(const Scene& scene, const Vector& camera, const RayTable& rays, bool smooth)
+ShadeBatch::ShadeBatch(const Scene& scene, const SampleGrid& grid, const RayTable& rays, bool smooth,
+                       const MaterialTable* materials)
     : scene_(scene),
-      camera_(camera),
+      camera_(grid.frame.position()),
       table_(rays),
+      materials_(materials),
+      neighbours_(materials == nullptr ? nullptr : std::make_unique<NeighbourRays>(grid)),
       smooth_(smooth && !scene.mesh().normal_corners.empty()),
       slots_(scene.mesh()) {}
 
@@ -151,15 +164,58 @@ void ShadeBatch::find_lights_of_moved(const std::vector<simd::LightSource>& ligh
   }
 }
 
-void ShadeBatch::shade(const std::vector<simd::LightSource>& lights, bool inverse_square, const std::uint8_t* masks,
-                       std::size_t stride) {
+void ShadeBatch::shade(const std::vector<simd::LightSource>& lights, bool inverse_square,
+                       const Surroundings& surroundings, const std::uint8_t* masks, std::size_t stride) {
   find_surfaces(some_smooth_);
+  if (materials_ == nullptr) {
+    shade_white(lights, inverse_square, surroundings, masks, stride);
+  } else {
+    shade_materials(lights, inverse_square, surroundings, masks, stride);
+  }
+}
+
+void ShadeBatch::shade_white(const std::vector<simd::LightSource>& lights, bool inverse_square,
+                             const Surroundings& surroundings, const std::uint8_t* masks, std::size_t stride) {
   for (auto& component : points_.radiance) std::fill_n(component, rays_.count, 0.0);
+  for (std::size_t i = 0; i < rays_.count && !surroundings.are_dark(); ++i) {
+    store(surroundings.at(at(points_.normal, i)), points_.radiance, i);
+  }
   for (std::size_t byte = 0; byte < stride; ++byte) {
     for (std::size_t i = 0; i < rays_.count; ++i) lit_[i] = masks[i * stride + byte];
     const std::size_t first = byte * 8;
     const int count = static_cast<int>(std::min<std::size_t>(8, lights.size() - first));
     simd::add_lights(lights.data() + first, count, inverse_square, lit_, rays_.count, points_);
+  }
+}
+
+SeenSurface ShadeBatch::seen_surface(std::size_t i, bool has_neighbours) const {
+  SeenSurface seen;
+  seen.face = face_ids_[i];
+  seen.weights = at(points_.weights, i);
+  seen.normal = at(points_.normal, i);
+  seen.is_behind = faces_.side[rays_.slots[i]] > 0;
+  seen.camera = DVector(camera_);
+  seen.rays.through = Vector(rays_.direction[0][i], rays_.direction[1][i], rays_.direction[2][i]);
+  if (has_neighbours) seen.rays = neighbours_->bundle(rays_, i);
+  return seen;
+}
+
+// Point by point, in the words of Shader::material_radiance.
+void ShadeBatch::shade_materials(const std::vector<simd::LightSource>& lights, bool inverse_square,
+                                 const Surroundings& surroundings, const std::uint8_t* masks, std::size_t stride) {
+  const auto has_textures = [&](std::uint32_t face) { return materials_->has_textures(face); };
+  const bool has_neighbours = std::any_of(slots_.faces, slots_.faces + slots_.planes.count, has_textures);
+  if (has_neighbours) neighbours_->find(table_.frame, samples_, rays_);
+  for (std::size_t i = 0; i < rays_.count; ++i) {
+    const SeenSurface seen = seen_surface(i, has_neighbours);
+    const SurfaceLook look = materials_->look(seen, frame_);
+    LitSurface lit(seen, look, at(points_.position, i), surroundings);
+    for (std::size_t l = 0; l < lights.size(); ++l) {
+      if ((masks[i * stride + l / 8] >> (l % 8) & 1) == 0) continue;
+      const simd::LightSource& light = lights[l];
+      lit.add(at(light.position), at(light.color), light.intensity, inverse_square);
+    }
+    store(lit.radiance(), points_.radiance, i);
   }
 }
 

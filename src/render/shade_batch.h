@@ -11,6 +11,8 @@
 #include "picture/asked_points.h"
 #include "picture/face_slots.h"
 #include "picture/ray_table.h"
+#include "render/lit_surface.h"
+#include "render/neighbour_rays.h"
 #include "simd/shade_points.h"
 
 namespace facemap {
@@ -24,8 +26,9 @@ struct MovedPoint {
 /// Shades some points of a picture together: Shader::shade is the definition. Working memory of one thread.
 class ShadeBatch {
  public:
-  /// The scene and the rays must outlive it.
-  ShadeBatch(const Scene& scene, const Vector& camera, const RayTable& rays, bool smooth);
+  /// The scene and the rays must outlive it, as must the materials. Without them (null) all is white.
+  ShadeBatch(const Scene& scene, const SampleGrid& grid, const RayTable& rays, bool smooth,
+             const MaterialTable* materials);
 
   /// Takes the points from number `first` on, at most simd::kSeenBatch, up to `end`. Returns how many.
   std::size_t take(const AskedPoints& points, std::size_t first, std::size_t end);
@@ -41,9 +44,10 @@ class ShadeBatch {
   /// nothing is between, `stride` bytes a point.
   void find_lights_of_moved(const std::vector<simd::LightSource>& lights, std::uint8_t* masks, std::size_t stride);
 
-  /// Radiance of all points taken, from the lights of each one's mask, `stride` bytes a point.
-  void shade(const std::vector<simd::LightSource>& lights, bool inverse_square, const std::uint8_t* masks,
-             std::size_t stride);
+  /// Radiance of all points taken, from what surrounds them and from the lights of each one's mask, `stride` bytes a
+  /// point.
+  void shade(const std::vector<simd::LightSource>& lights, bool inverse_square, const Surroundings& surroundings,
+             const std::uint8_t* masks, std::size_t stride);
   void store_colors(std::span<Color> colors) const;
 
  private:
@@ -53,10 +57,18 @@ class ShadeBatch {
   void set_normals();
   void find_surfaces(bool smooth);
   bool is_moved(std::size_t i, const Vector& position) const;
+  void shade_white(const std::vector<simd::LightSource>& lights, bool inverse_square, const Surroundings& surroundings,
+                   const std::uint8_t* masks, std::size_t stride);
+  void shade_materials(const std::vector<simd::LightSource>& lights, bool inverse_square,
+                       const Surroundings& surroundings, const std::uint8_t* masks, std::size_t stride);
+  SeenSurface seen_surface(std::size_t i, bool has_neighbours) const;
 
   const Scene& scene_;
   Vector camera_;
   const RayTable& table_;
+  const MaterialTable* materials_;
+  std::unique_ptr<NeighbourRays> neighbours_;  // if there are materials
+  FaceFrame frame_;
   bool smooth_;               // if any face has normals
   bool some_smooth_ = false;  // of the faces taken, some may be smooth
   FaceSlots slots_;

@@ -26,11 +26,11 @@ std::vector<simd::LightSource> sources_of(const std::vector<Light>& lights) {
 // Calls task(batch, first point, one past the last, chunk) for all chunks of the seen points.
 template <class Task>
 void for_each_chunk(const Scene& scene, const SampleGrid& grid, const AskedPoints& points, bool smooth,
-                    const Executor& executor, const Task& task) {
+                    const MaterialTable* materials, const Executor& executor, const Task& task) {
   const RayTable rays(grid);
   std::vector<std::unique_ptr<ShadeBatch>> batches;
   for (int i = 0; i < executor.threads(); ++i) {
-    batches.push_back(std::make_unique<ShadeBatch>(scene, grid.frame.position(), rays, smooth));
+    batches.push_back(std::make_unique<ShadeBatch>(scene, grid, rays, smooth, materials));
   }
   executor.for_each(chunks_of(points.size()), [&](std::size_t chunk, int worker) {
     ShadeBatch& batch = *batches[static_cast<std::size_t>(worker)];
@@ -97,7 +97,7 @@ MovedPoints find_moved_points(const Scene& scene, const SampleGrid& grid, SeenPo
   const std::vector<simd::LightSource> sources = sources_of(lights);
   const std::vector<std::uint8_t> all = full_mask(lights.size());
   std::vector<FoundPoints> found(chunks_of(seen.points.size()));
-  for_each_chunk(scene, grid, seen.points, true, executor,
+  for_each_chunk(scene, grid, seen.points, true, nullptr, executor,
                  [&](ShadeBatch& batch, std::size_t first, std::size_t end, std::size_t chunk) {
                    while (first < end) {
                      first = batch.take_smooth(seen.points, first, end);
@@ -110,14 +110,17 @@ MovedPoints find_moved_points(const Scene& scene, const SampleGrid& grid, SeenPo
 }
 
 void shade_points(const Scene& scene, const SampleGrid& grid, const SeenPoints& seen, const std::vector<Light>& lights,
-                  const Renderer::Options& options, const Executor& executor, std::span<Color> colors) {
+                  const Renderer::Options& options, const Executor& executor, std::span<Color> colors,
+                  const MaterialTable* materials) {
   const std::vector<simd::LightSource> sources = sources_of(lights);
   const bool inverse_square = options.falloff == Renderer::Falloff::InverseSquare;
-  for_each_chunk(scene, grid, seen.points, options.normals == Renderer::Normals::Smooth, executor,
+  const Surroundings surroundings(options);
+  for_each_chunk(scene, grid, seen.points, options.normals == Renderer::Normals::Smooth, materials, executor,
                  [&](ShadeBatch& batch, std::size_t first, std::size_t end, std::size_t) {
                    for (std::size_t count = 0; first < end; first += count) {
                      count = batch.take(seen.points, first, end);
-                     batch.shade(sources, inverse_square, seen.masks.data() + first * seen.stride, seen.stride);
+                     batch.shade(sources, inverse_square, surroundings, seen.masks.data() + first * seen.stride,
+                                 seen.stride);
                      batch.store_colors(colors);
                    }
                  });

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "material/material_table.h"
 #include "parallel/executor.h"
 #include "picture/moved_points.h"
 #include "picture/sample_grid.h"
@@ -22,8 +23,10 @@ MovedPoints find_moved_points(const Scene& scene, const SampleGrid& grid, SeenPo
                               const Executor& executor);
 
 /// Writes colors[sample] for the samples of all seen points, as Shader::shade computes it, bit for bit, from masks that
-/// say which lights are lit. Other elements of `colors` (one a sample of the grid) stay as they are.
+/// say which lights are lit. Other elements of `colors` (one a sample of the grid) stay as they are. Without materials
+/// (null) all is white.
 void shade_points(const Scene& scene, const SampleGrid& grid, const SeenPoints& seen, const std::vector<Light>& lights,
-                  const Renderer::Options& options, const Executor& executor, std::span<Color> colors);
+                  const Renderer::Options& options, const Executor& executor, std::span<Color> colors,
+                  const MaterialTable* materials = nullptr);
 
 }  // namespace facemap

@@ -123,8 +123,8 @@ struct WholePicture::Seen {
 
 WholePicture::WholePicture(const Scene& scene, const View& view, const std::vector<Light>& lights,
                            const Renderer::Options& options, const Executor& executor, TransposedState& state,
-                           const std::vector<PointLight>* lists, bool keeps_bounds, Renderer::Statistics& statistics,
-                           Report report)
+                           const std::vector<PointLight>* lists, bool keeps_bounds, const MaterialTable* materials,
+                           Renderer::Statistics& statistics, Report report)
     : scene_(scene),
       view_(view),
       lights_(lights),
@@ -133,6 +133,7 @@ WholePicture::WholePicture(const Scene& scene, const View& view, const std::vect
       state_(state),
       lists_(lists),
       keeps_bounds_(keeps_bounds),
+      materials_(materials),
       statistics_(statistics),
       report_(std::move(report)) {
   state_.scratch.resize(static_cast<std::size_t>(executor.threads()));
@@ -283,7 +284,7 @@ Image WholePicture::paint() {
     const Stopwatch shade_time;
     report(0.8, "shade");
     if (lists_ != nullptr) colors_.assign(grid.count(), options_.background);
-    shade_points(scene_, grid, seen.points, lights_, options_, executor_, colors_);
+    shade_points(scene_, grid, seen.points, lights_, options_, executor_, colors_, materials_);
     if (!centres_are_sampled) colors_ = mean_of_samples(grid, colors_, executor_);
     put_band(std::move(colors_),
              static_cast<std::size_t>(grid.first_row / options_.samples) * static_cast<std::size_t>(image.width),

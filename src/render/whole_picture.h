@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "material/material_table.h"
 #include "parallel/executor.h"
 #include "picture/lit_points.h"
 #include "picture/shadows.h"
@@ -31,7 +32,7 @@ class WholePicture {
   /// of the lights are made, if they are not.
   WholePicture(const Scene& scene, const View& view, const std::vector<Light>& lights, const Renderer::Options& options,
                const Executor& executor, TransposedState& state, const std::vector<PointLight>* lists,
-               bool keeps_bounds, Renderer::Statistics& statistics, Report report);
+               bool keeps_bounds, const MaterialTable* materials, Renderer::Statistics& statistics, Report report);
 
   /// As Renderer::render.
   Image paint();
@@ -57,6 +58,7 @@ class WholePicture {
   TransposedState& state_;
   const std::vector<PointLight>* lists_;
   bool keeps_bounds_;
+  const MaterialTable* materials_;  // null: all is white
   Renderer::Statistics& statistics_;
   Report report_;
   bool paints_ = false;

@@ -27,7 +27,10 @@ ObjModel load_obj(std::optional<FileMapping>& file, const std::filesystem::path&
 }
 
 OBJ::OBJ(ObjModel&& model)
-    : mesh_(std::move(model.mesh)), materials_(std::move(model.materials)), report_(std::move(model.report)) {
+    : mesh_(std::move(model.mesh)),
+      materials_(std::move(model.materials)),
+      images_(std::move(model.images)),
+      report_(std::move(model.report)) {
   const FloatingPointMode mode;
   if (!model.smoothing.empty()) add_smooth_normals(mesh_, model.smoothing);
 }

@@ -66,8 +66,8 @@ std::vector<std::string> split_library_names(std::string_view names) {
   return result;
 }
 
-ObjMaterials::ObjMaterials(std::filesystem::path directory, std::uint64_t max_bytes)
-    : directory_(std::move(directory)), max_bytes_(max_bytes) {}
+ObjMaterials::ObjMaterials(const std::filesystem::path& directory, std::uint64_t max_bytes, bool allow_outside)
+    : directory_(directory), max_bytes_(max_bytes), images_(directory, allow_outside) {}
 
 std::uint32_t ObjMaterials::use(std::string_view name, std::int64_t line) {
   if (name.empty()) return kNoIndex;
@@ -98,7 +98,7 @@ void ObjMaterials::read_library(const std::string& name, std::int64_t line, ObjW
       return warnings.add(line, "MTL file is not text", name);
     }
     ObjWarnings mtl_warnings(path.string());
-    parse_mtl(file.text(), mtl_warnings, materials_);
+    parse_mtl(file.text(), path.parent_path(), images_, mtl_warnings, materials_);
     mtl_warnings.append_to(mtl_warnings_);
   } catch (const LoadError& cannot_read) {
     warnings.add(line, "MTL file cannot be read", name + ": " + cannot_read.reason());

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/image_table.h"
 #include "scene/obj_warnings.h"
 
 namespace facemap {
@@ -19,8 +20,8 @@ namespace facemap {
 class ObjMaterials {
  public:
   /// MTL files are looked up in `directory` and its folders, or not at all if it is empty; none of more than
-  /// `max_bytes` is read.
-  ObjMaterials(std::filesystem::path directory, std::uint64_t max_bytes);
+  /// `max_bytes` is read. Textures that they name lie there too, unless others are allowed.
+  ObjMaterials(const std::filesystem::path& directory, std::uint64_t max_bytes, bool allow_outside);
 
   /// usemtl: a number for the name. The empty name is kNoIndex, no material.
   std::uint32_t use(std::string_view name, std::int64_t line);
@@ -33,6 +34,7 @@ class ObjMaterials {
   void resolve(std::vector<std::uint32_t>& numbers, ObjWarnings& warnings) const;
 
   std::vector<Material>& materials() { return materials_; }
+  std::vector<TextureImage>& images() { return images_.images(); }
 
   /// What is odd about the MTL files.
   const std::vector<std::string>& warnings() const { return mtl_warnings_; }
@@ -50,6 +52,7 @@ class ObjMaterials {
   std::map<std::string, Use, std::less<>> uses_;
   std::set<std::string> libraries_;  ///< tried so far
   std::vector<Material> materials_;
+  ImageTable images_;
   std::vector<std::string> mtl_warnings_;
 };
 

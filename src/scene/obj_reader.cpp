@@ -46,7 +46,7 @@ ObjReader::ObjReader(std::string_view text, std::string name, const std::filesys
       text_(text),
       lines_(text),
       warnings_(name_),
-      mtl_(directory, limits.max_bytes),
+      mtl_(directory, limits.max_bytes, limits.allow_outside),
       faces_(model_.mesh, warnings_) {}
 
 void ObjReader::read(const ObjChunks::Release& release) {
@@ -316,6 +316,7 @@ ObjModel ObjReader::finish() {
   model_.smoothing = faces_.smoothing_runs();
   mtl_.resolve(model_.mesh.triangle_materials, warnings_);
   model_.materials = std::move(mtl_.materials());
+  model_.images = std::move(mtl_.images());
   warnings_.append_to(model_.report.warnings);
   model_.report.warnings.insert(model_.report.warnings.end(), mtl_.warnings().begin(), mtl_.warnings().end());
   return std::move(model_);

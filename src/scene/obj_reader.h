@@ -26,6 +26,7 @@ namespace facemap {
 struct ObjModel {
   Mesh mesh;
   std::vector<Material> materials;
+  std::vector<TextureImage> images;
   OBJ::Report report;
   std::vector<SmoothingRun> smoothing;
 };

@@ -27,29 +27,59 @@ constexpr std::size_t kSmallScene = 1 << 16;  ///< faces below which threads cos
 constexpr std::size_t kLeastPiece = 1 << 13;  ///< faces worth a task of their own
 
 /// What a model of a format other than OBJ holds, in the words of OBJ.
-OBJ::Report report_of(const Model& model) {
+OBJ::Report report_of(const Mesh& mesh, std::size_t objects, std::vector<std::string>&& warnings) {
   OBJ::Report report;
-  const Mesh& mesh = model.mesh;
   report.vertices = static_cast<std::int64_t>(mesh.positions.size());
   report.texture_coordinates = static_cast<std::int64_t>(mesh.texture_coordinates.size());
   report.normals = static_cast<std::int64_t>(mesh.normals.size());
   report.triangles = static_cast<std::int64_t>(mesh.face_count());
   report.polygons = mesh.polygons.empty() ? report.triangles : std::int64_t{mesh.polygons.back()} + 1;
-  report.objects = static_cast<std::int64_t>(model.objects.size());
-  report.warnings = model.warnings;
+  report.objects = static_cast<std::int64_t>(objects);
+  report.warnings = std::move(warnings);
   return report;
+}
+
+constexpr TextureUse Material::*kMaps[] = {
+    &Material::diffuse_map,   &Material::opacity_map,  &Material::specular_map,
+    &Material::shininess_map, &Material::emission_map, &Material::metallic_map,
+    &Material::roughness_map, &Material::normal_map,   &Material::bump_map,
+};
+
+std::vector<Material> without_maps(std::vector<Material> materials) {
+  for (Material& material : materials) {
+    for (const auto map : kMaps) material.*map = TextureUse();
+  }
+  return materials;
+}
+
+void check_images(const std::vector<Material>& materials, std::size_t count) {
+  for (const Material& material : materials) {
+    for (const auto map : kMaps) {
+      const TextureUse& use = material.*map;
+      if (use.is_used() && use.image >= count) {
+        throw Error("image " + std::to_string(use.image) + " of " + std::to_string(count));
+      }
+    }
+  }
 }
 
 }  // namespace
 
 Scene::Scene(Mesh mesh, std::vector<Material> materials, int threads)
-    : Scene(std::move(mesh), std::move(materials), {}, threads) {}
+    : Scene(std::move(mesh), without_maps(std::move(materials)), {}, {}, threads) {}
 
-Scene::Scene(Mesh mesh, std::vector<Material> materials, const std::vector<SmoothingRun>& smoothing, int threads)
-    : mesh_(std::move(mesh)), materials_(std::move(materials)) {
+Scene::Scene(Model model, int threads)
+    : Scene(std::move(model.mesh), std::move(model.materials), std::move(model.images), {}, threads) {
+  report_ = report_of(mesh_, model.objects.size(), std::move(model.warnings));
+}
+
+Scene::Scene(Mesh mesh, std::vector<Material> materials, std::vector<TextureImage> images,
+             const std::vector<SmoothingRun>& smoothing, int threads)
+    : mesh_(std::move(mesh)), materials_(std::move(materials)), images_(std::move(images)) {
   const FloatingPointMode mode;
   const Executor executor(face_count() < kSmallScene ? 1 : threads);
   check_mesh(mesh_, materials_.size(), executor);
+  check_images(materials_, images_.size());
   // Normals are made one after the other, and faces are judged by their positions: side by side.
   executor.for_each(2, [&](std::size_t task, int) {
     if (task == 0 && !smoothing.empty()) add_smooth_normals(mesh_, smoothing);
@@ -72,7 +102,7 @@ Scene Scene::load(const std::filesystem::path& path, int threads) {
   const ModelFormat format = sniff_format(file->text(), path.extension());
   if (format == ModelFormat::Obj) {
     ObjModel model = load_obj(file, path, limits);
-    Scene scene(std::move(model.mesh), std::move(model.materials), model.smoothing, threads);
+    Scene scene(std::move(model.mesh), std::move(model.materials), std::move(model.images), model.smoothing, threads);
     scene.report_ = std::move(model.report);
     return scene;
   }
@@ -81,10 +111,7 @@ Scene Scene::load(const std::filesystem::path& path, int threads) {
   model_limits.threads = threads;
   Model model = read_model(format, file->text(), path.string(), folder, model_limits);
   file.reset();
-  OBJ::Report report = report_of(model);
-  Scene scene(std::move(model.mesh), std::move(model.materials), threads);
-  scene.report_ = std::move(report);
-  return scene;
+  return Scene(std::move(model), threads);
 }
 
 void Scene::list_kept_faces(const Executor& executor) {

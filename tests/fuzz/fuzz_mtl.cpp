@@ -16,9 +16,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   ObjWarnings warnings("fuzz.mtl");
   std::vector<Material> materials;
-  parse_mtl(text, warnings, materials);
+  ImageTable images({}, false);
+  parse_mtl(text, {}, images, warnings, materials);
   for (const Material& material : materials) {
     if (!std::isfinite(material.diffuse.x) || !std::isfinite(material.opacity)) std::abort();
+    for (const TextureUse& use : {material.diffuse_map, material.bump_map}) {
+      if (use.is_used() && use.image >= images.images().size()) std::abort();
+      if (!std::isfinite(use.scale.x) || !std::isfinite(use.strength)) std::abort();
+    }
   }
   for (const std::string& name : split_library_names(text.substr(0, text.find('\n')))) {
     if (name.empty()) std::abort();

@@ -6,8 +6,10 @@
 
 #include <cmath>
 #include <cstring>
+#include <memory>
 
 #include "map/face_planes.h"
+#include "material/material_table.h"
 #include "math/dvector.h"
 #include "picture/moved_points.h"
 #include "render/shade.h"
@@ -39,6 +41,81 @@ void add_normals(Mesh& mesh, Random& random) {
   }
 }
 
+// A picture of a few texels of any colour.
+TextureImage make_image(Random& random) {
+  Image image;
+  image.width = random.between(1, 9);
+  image.height = random.between(1, 9);
+  for (int i = 0; i < image.width * image.height; ++i) {
+    image.pixels.push_back(Color::from_24_bit(static_cast<std::uint32_t>(random.next() & 0xffffff)));
+  }
+  return {"image", {}, encode_png(image)};
+}
+
+TextureUse make_use(Random& random, double chance) {
+  TextureUse use;
+  if (!random.chance(chance)) return use;
+  use.image = static_cast<std::uint32_t>(random.below(3));
+  use.is_v_down = random.chance(0.5);
+  use.wrap_u = static_cast<TextureUse::Wrap>(random.below(3));
+  use.wrap_v = static_cast<TextureUse::Wrap>(random.below(3));
+  use.scale = {static_cast<float>(random.between(-3.0, 3.0)), 1};
+  use.rotation = static_cast<float>(random.between(0.0, 6.0));
+  use.channel = random.between(-1, 3);
+  use.is_smooth = random.chance(0.7);
+  return use;
+}
+
+Vector make_colour(Random& random) { return Vector(DVector(random.unit(), random.unit(), random.unit())); }
+
+Material make_material(Random& random) {
+  Material material;
+  material.kind = random.chance(0.5) ? Material::Kind::Phong : Material::Kind::MetalRough;
+  material.diffuse = make_colour(random);
+  material.specular = make_colour(random);
+  if (random.chance(0.2)) material.emission = make_colour(random);
+  material.shininess = static_cast<float>(random.between(0.0, 60.0));
+  material.metallic = static_cast<float>(random.unit());
+  material.roughness = static_cast<float>(random.unit());
+  material.is_unlit = random.chance(0.1);
+  material.illumination = random.between(1, 2);
+  material.diffuse_map = make_use(random, 0.5);
+  for (TextureUse* use : {&material.specular_map, &material.shininess_map, &material.emission_map,
+                          &material.metallic_map, &material.roughness_map, &material.normal_map, &material.bump_map}) {
+    *use = make_use(random, 0.2);
+  }
+  return material;
+}
+
+// Materials on most faces, texture coordinates on most corners, colours on some meshes' vertices.
+Model with_materials(const Mesh& mesh, Random& random) {
+  Model model;
+  model.mesh = mesh;
+  for (int i = 0; i < 3; ++i) model.images.push_back(make_image(random));
+  for (int i = 0; i < 5; ++i) model.materials.push_back(make_material(random));
+  for (std::size_t face = 0; face < mesh.face_count(); ++face) {
+    model.mesh.triangle_materials.push_back(random.chance(0.1) ? kNoIndex
+                                                               : static_cast<std::uint32_t>(random.below(5)));
+    Corners corners;
+    for (std::uint32_t& corner : corners) {
+      corner = static_cast<std::uint32_t>(model.mesh.texture_coordinates.size());
+      model.mesh.texture_coordinates.push_back(
+          {static_cast<float>(random.between(-2.0, 2.0)), static_cast<float>(random.between(-2.0, 2.0))});
+      if (random.chance(0.02)) corner = kNoIndex;
+    }
+    model.mesh.texture_corners.push_back(corners);
+  }
+  if (random.chance(0.3)) {
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) model.mesh.colours.push_back(make_colour(random));
+  }
+  return model;
+}
+
+Color make_light_colour(Random& random) {
+  const Vector colour = make_colour(random);
+  return {colour.x, colour.y, colour.z};
+}
+
 struct Setting {
   Scene scene;
   SampleGrid grid;
@@ -46,7 +123,7 @@ struct Setting {
   Renderer::Options options;
 };
 
-Setting make_setting(Random& random) {
+Setting make_setting(Random& random, bool has_materials) {
   TestScene made = make_any_scene(random, 60);
   if (random.chance(0.8)) add_normals(made.mesh, random);
   const Vector camera = make_origin(made, random);
@@ -55,7 +132,9 @@ Setting make_setting(Random& random) {
   const bool plane = random.chance(0.5);
   const Projection projection(plane ? ProjectionKind::Plane : ProjectionKind::Surface,
                               random.between(0.2, plane ? 2.5 : 6.28), random.between(1, 40), random.between(1, 40));
-  Setting setting{Scene(made.mesh), {SpaceVector::looking_along(camera, sight), projection, 1}, {}, {}};
+  Scene scene = has_materials ? Scene(with_materials(made.mesh, random)) : Scene(made.mesh);
+  Setting setting{std::move(scene), {SpaceVector::looking_along(camera, sight), projection, 1}, {}, {}};
+  if (has_materials) setting.grid.per_side = random.between(1, 2);
   setting.lights.resize(static_cast<std::size_t>(random.between(1, 20)));
   for (Light& light : setting.lights) {
     light.position = make_origin(made, random);
@@ -65,6 +144,11 @@ Setting make_setting(Random& random) {
   setting.options.normals = random.chance(0.7) ? Renderer::Normals::Smooth : Renderer::Normals::Flat;
   setting.options.shadow_terminator_fix = random.chance(0.8);
   setting.options.falloff = random.chance(0.5) ? Renderer::Falloff::Constant : Renderer::Falloff::InverseSquare;
+  if (random.chance(0.4)) {
+    setting.options.ambient = make_light_colour(random);
+    setting.options.sky_up = make_light_colour(random);
+    setting.options.up = Vector(random.direction());
+  }
   setting.options.want_lights = random.chance(0.5);  // else lights that add nothing are not asked
   return setting;
 }
@@ -76,7 +160,7 @@ struct Expected {
   std::vector<PointLight> lights;
 };
 
-Expected shade_singly(const Setting& setting) {
+Expected shade_singly(const Setting& setting, const MaterialTable* materials = nullptr) {
   Expected expected;
   for (const Light& light : setting.lights) {
     expected.lights.emplace_back(setting.scene, light.position);
@@ -90,11 +174,11 @@ Expected shade_singly(const Setting& setting) {
   options.height = setting.grid.projection.height();
   const Camera camera(setting.scene, setting.grid.frame, options);
   Renderer::Statistics statistics;
-  Shader shader(camera, expected.lights, setting.options, statistics);
+  Shader shader(camera, expected.lights, setting.options, statistics, materials);
   for (int row = 0; row < setting.grid.rows(); ++row) {
     for (int column = 0; column < setting.grid.columns(); ++column) {
       Sample sample;
-      shader.shade(setting.grid.map_point(column, row), sample);
+      shader.shade(setting.grid.map_point(column, row), 1.0 / setting.grid.per_side, sample);
       expected.nearest.faces.push_back(sample.face);
       expected.samples.push_back(sample);
     }
@@ -127,7 +211,8 @@ void ask_lights(const Setting& setting, const std::vector<PointLight>& lights, c
 
 bool same_bits(const Color& a, const Color& b) { return std::memcmp(&a, &b, sizeof(Color)) == 0; }
 
-void expect_same(const Setting& setting, const Expected& expected, const Executor& executor, std::size_t* moved_count) {
+void expect_same(const Setting& setting, const Expected& expected, const Executor& executor, std::size_t* moved_count,
+                 const MaterialTable* materials = nullptr) {
   std::vector<Vector> positions;
   for (const Light& light : setting.lights) positions.push_back(light.position);
   SeenPoints seen = find_seen_points(setting.scene, setting.grid, expected.nearest, positions, executor);
@@ -136,7 +221,7 @@ void expect_same(const Setting& setting, const Expected& expected, const Executo
   *moved_count += moved.positions.size();
   ask_lights(setting, expected.lights, moved, seen);
   std::vector<Color> colors(setting.grid.count(), setting.options.background);
-  shade_points(setting.scene, setting.grid, seen, setting.lights, setting.options, executor, colors);
+  shade_points(setting.scene, setting.grid, seen, setting.lights, setting.options, executor, colors, materials);
   for (std::size_t i = 0; setting.options.want_lights && i < seen.points.size(); ++i) {
     const std::vector<std::uint8_t>& lights = expected.samples[seen.points.samples[i]].lights;
     for (std::size_t byte = 0; byte < seen.stride; ++byte) {
@@ -150,24 +235,33 @@ void expect_same(const Setting& setting, const Expected& expected, const Executo
   }
 }
 
-TEST(ShadePicture, GivesTheBitsOfTheShader) {
+void expect_bits_of_the_shader(bool has_materials, std::uint64_t seeds) {
   const simd::Target before = simd::active_target();
   std::size_t moved_count = 0;
-  for (std::uint64_t seed = 1; seed <= 120; ++seed) {
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
-    const Setting setting = make_setting(random);
-    const Expected expected = shade_singly(setting);
+    const Setting setting = make_setting(random, has_materials);
+    std::unique_ptr<MaterialTable> materials;
+    if (has_materials) {
+      materials = std::make_unique<MaterialTable>(setting.scene, 1000, Executor(1));
+      ASSERT_TRUE(materials->warnings().empty()) << materials->warnings()[0];
+    }
+    const Expected expected = shade_singly(setting, materials.get());
     for (const simd::Target target : simd::supported_targets()) {
       SCOPED_TRACE(simd::name_of(target));
       simd::set_active_target(target);
-      expect_same(setting, expected, Executor(1 + static_cast<int>(seed % 3)), &moved_count);
+      expect_same(setting, expected, Executor(1 + static_cast<int>(seed % 3)), &moved_count, materials.get());
     }
     simd::set_active_target(before);
-    if (HasFailure()) return;
+    if (testing::Test::HasFailure()) return;
   }
   EXPECT_GT(moved_count, 1000u);
 }
+
+TEST(ShadePicture, GivesTheBitsOfTheShader) { expect_bits_of_the_shader(false, 120); }
+
+TEST(ShadePicture, GivesTheBitsOfTheShaderWithMaterials) { expect_bits_of_the_shader(true, 120); }
 
 // More points than a task takes: threads share them.
 TEST(ShadePicture, IsTheSameForAnyNumberOfThreads) {

@@ -1,0 +1,65 @@
+#include "material/texture_set.h"
+
+#include <facemap/error.h>
+
+#include <new>
+#include <span>
+
+#include "image/decode_image.h"
+#include "scene/file_mapping.h"
+
+namespace facemap {
+namespace {
+
+// Of an image's file: more than any that decodes to the pixels allowed.
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 31;
+
+DecodedImage read(const TextureImage& image, std::uint64_t max_pixels) {
+  if (image.file.empty()) return decode_image(image.bytes, image.name, max_pixels);
+  const FileMapping file(image.file, kMostBytes);
+  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(file.text().data());
+  return decode_image(std::span(bytes, file.text().size()), image.file.string(), max_pixels);
+}
+
+}  // namespace
+
+TextureSet::TextureSet(const Scene& scene, std::uint64_t max_pixels, const Executor& executor) {
+  const auto need = [&](const TextureUse& use, Encoding encoding) {
+    if (use.is_used()) textures_.try_emplace({use.image, encoding});
+  };
+  for (const Material& m : scene.materials()) {
+    for (const TextureUse* use : {&m.diffuse_map, &m.specular_map, &m.emission_map}) need(*use, Encoding::Srgb);
+    for (const TextureUse* use : {&m.shininess_map, &m.metallic_map, &m.roughness_map, &m.normal_map, &m.bump_map}) {
+      need(*use, Encoding::Linear);
+    }
+  }
+  struct Task {
+    const Key& key;
+    std::unique_ptr<const Texture>& texture;
+    std::string warning;
+  };
+  std::vector<Task> tasks;
+  for (auto& [key, texture] : textures_) tasks.push_back({key, texture, {}});
+  executor.for_each(tasks.size(), [&](std::size_t i, int) {
+    const TextureImage& image = scene.images()[tasks[i].key.first];
+    try {
+      tasks[i].texture = std::make_unique<Texture>(read(image, max_pixels), tasks[i].key.second);
+    } catch (const Error& error) {
+      tasks[i].warning = error.what();
+    } catch (const std::bad_alloc&) {
+      tasks[i].warning = image.name + ": not enough memory for the image";
+    }
+  });
+  for (const Task& task : tasks) {
+    if (!task.warning.empty() && (warnings_.empty() || warnings_.back() != task.warning)) {
+      warnings_.push_back(task.warning);
+    }
+  }
+}
+
+const Texture* TextureSet::find(const TextureUse& use, Encoding encoding) const {
+  const auto found = textures_.find({use.image, encoding});
+  return found == textures_.end() ? nullptr : found->second.get();
+}
+
+}  // namespace facemap
