@@ -38,6 +38,13 @@ std::string progress_name(const char* phase, std::size_t frame, std::size_t coun
   return std::to_string(frame + 1) + "/" + std::to_string(count) + " " + phase;
 }
 
+/// Textures that could not be read: known once a picture wanted them.
+void print_warnings(const Renderer::Statistics& statistics, ProgressLine& line) {
+  if (statistics.warnings.empty()) return;
+  line.clear();
+  for (const std::string& warning : statistics.warnings) std::cerr << "facemap: warning: " << warning << '\n';
+}
+
 /// One picture after the other: what is made for the lights is made once. Each is written while the next is made.
 void render_frames(Renderer& renderer, const std::vector<View>& views, const std::vector<FrameFiles>& files,
                    int threads, bool shows_progress, Stats& stats) {
@@ -50,6 +57,7 @@ void render_frames(Renderer& renderer, const std::vector<View>& views, const std
       return true;
     });
     stats.add_frame(renderer.statistics());
+    if (i == 0 && shows_progress) print_warnings(renderer.statistics(), line);
     if (i + 1 < views.size()) {
       writer.begin(std::move(image), files[i]);
     } else {
