@@ -24,11 +24,13 @@ template <class Task>
 void for_each_light(const LightWork& work, std::size_t stride, std::vector<std::uint8_t>& masks, Counters& counters,
                     const Task& task) {
   const std::vector<std::uint8_t> asked = masks;
+  const bool has_bounds = work.bounds != nullptr && work.bounds->are_made();
+  const std::size_t most = has_bounds ? 0 : most_asked(asked, stride);
   std::mutex writing, reporting;
   std::size_t done = 0;
   work.executor.for_each(work.lights.size(), [&](std::size_t l, int worker) {
     Counters own;
-    const MaskBit mask{asked.data(), masks.data(), stride, static_cast<int>(l), &writing};
+    const MaskBit mask{asked.data(), masks.data(), stride, static_cast<int>(l), &writing, most};
     task(l, mask, worker, own);
     const std::scoped_lock lock(reporting);
     counters += own;
