@@ -130,7 +130,7 @@ struct Kernels {
 
   simd::ListedPoints list() {
     const std::size_t count = points.size();
-    memory.start(bytes_of_list(count) + ShadowPoints::bytes_for(count, picture.scene.face_count()));
+    memory.start();
     simd::ListedPoints all = list_in(memory, count);
     simd::list_wanted(arrays_of(points), {wanted.data(), 1, 1}, all);
     return all;

@@ -19,6 +19,7 @@ namespace facemap {
 
 struct ShadowScratch::Parts {
   WorkingMemory memory;
+  std::vector<std::uint8_t> sides;  ///< of a light among the points: one bit a point that is asked
   std::vector<std::uint32_t> rest;
   ShadowPoints points;
   ShadowFaces faces;
@@ -30,8 +31,8 @@ ShadowScratch::ShadowScratch(ShadowScratch&&) noexcept = default;
 ShadowScratch& ShadowScratch::operator=(ShadowScratch&&) noexcept = default;
 
 std::size_t ShadowScratch::memory_bytes() const noexcept {
-  return sizeof(Parts) + parts_->memory.memory_bytes() + parts_->rest.capacity() * sizeof(std::uint32_t) +
-         parts_->points.memory_bytes() + parts_->faces.memory_bytes();
+  return sizeof(Parts) + parts_->memory.memory_bytes() + parts_->sides.capacity() +
+         parts_->rest.capacity() * sizeof(std::uint32_t) + parts_->points.memory_bytes() + parts_->faces.memory_bytes();
 }
 
 namespace {
@@ -89,7 +90,8 @@ class LightPass {
   void run() {
     const std::size_t most = mask_.most != 0 ? mask_.most : count_asked();
     if (most == 0) return;
-    parts_.memory.start(bytes_of_list(most) + ShadowPoints::bytes_for(most, scene_.face_count()));
+    parts_.memory.start();
+    parts_.memory.require(bytes_of_list(most));
     simd::ListedPoints list = list_in(parts_.memory, most);
     const simd::WantedBits wanted{mask_.asked + mask_.bit / 8, mask_.stride,
                                   static_cast<std::uint8_t>(1u << (mask_.bit % 8))};
@@ -109,6 +111,7 @@ class LightPass {
     }
     if (auto frame = frame_towards(light_, box, PointProjection(points_, light_, size_).error)) {
       if (is_longer_along_v(scene_, *frame)) frame = turned(*frame);
+      parts_.memory.require(ShadowPoints::bytes_for(most, scene_.face_count()));
       run_frame(*frame, list, nearest_of(*frame, box));
     } else {
       run_sides(box, list);
@@ -137,26 +140,26 @@ class LightPass {
     if (!(reach > 0)) return add_to_rest(list);
     simd::ShadowFrame frame = frame_of_side(light_, 4, reach);
     for (int k = 0; k < 3; ++k) frame.rows[k][k] = 1 / reach;  // plain offsets: the sides' rims are wider than rounding
-    WorkingMemory& memory = parts_.memory;
-    auto* const sides = memory.take<std::uint8_t>(list.count + simd::kListPadding);
-    const simd::SideCounts counts =
-        simd::split_by_side(list, PointProjection(points_, light_, size_).through(frame, 1), sides);
+    const simd::SideCounts counts = split(list, PointProjection(points_, light_, size_).through(frame, 1));
     const std::size_t most = *std::max_element(counts.of, counts.of + simd::kSides);
-    memory.require(bytes_of_list(most) + ShadowPoints::bytes_for(most, scene_.face_count()));
-    const WorkingMemory::Mark mark = memory.mark();
     for (int side = 0; side < simd::kSides; ++side) {
       if (counts.of[side] == 0) continue;
-      memory.take_back_to(mark);
-      run_frame(frame_of_side(light_, side, reach), list_side(list, sides, side, counts.of[side]), 0);
+      parts_.memory.start();  // the list of all is not needed any more
+      parts_.memory.require(bytes_of_list(most));
+      simd::ListedPoints of_side = list_in(parts_.memory, counts.of[side]);
+      simd::list_wanted(arrays_of(points_), {parts_.sides.data(), 1, static_cast<std::uint8_t>(1u << side)}, of_side);
+      parts_.memory.require(ShadowPoints::bytes_for(most, scene_.face_count()));
+      run_frame(frame_of_side(light_, side, reach), of_side, 0);
     }
   }
 
-  simd::ListedPoints list_side(const simd::ListedPoints& list, const std::uint8_t* sides, int side, std::size_t count) {
-    simd::ListedPoints some = list_in(parts_.memory, count);
-    const simd::WantedBits wanted{sides, 1, static_cast<std::uint8_t>(1u << side)};
-    simd::list_wanted({list.x, list.y, list.z, list.count}, wanted, some);
-    for (std::size_t k = 0; k < count; ++k) some.numbers[k] = list.numbers[some.numbers[k]];
-    return some;
+  // Sets the bit of its side for each point of the list.
+  simd::SideCounts split(const simd::ListedPoints& list, const simd::PointTransform& transform) {
+    auto* const bits = parts_.memory.take<std::uint8_t>(list.count + simd::kListPadding);
+    const simd::SideCounts counts = simd::split_by_side(list, transform, bits);
+    parts_.sides.assign(points_.size(), 0);
+    for (std::size_t k = 0; k < list.count; ++k) parts_.sides[list.numbers[k]] = bits[k];
+    return counts;
   }
 
   // `nearest`: the least Z of the points, or 0: not known.

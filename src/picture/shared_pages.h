@@ -24,13 +24,10 @@ class SharedPages {
   }
 
   /// Takes all back, whose arrays must not be used any more. What stood there stays.
-  void take_back() { take_back_to(0); }
-
-  /// Takes back what was taken since taken() was that.
-  void take_back_to(std::size_t taken) { taken_ = taken; }
+  void take_back() { taken_ = 0; }
 
   std::size_t size() const noexcept { return size_; }
-  std::size_t taken() const noexcept { return taken_; }
+  bool is_free() const noexcept { return taken_ == 0; }
 
   /// Gives the pages that are not taken back to the system.
   void give_back_rest() {

@@ -9,41 +9,29 @@
 
 namespace facemap {
 
-/// Memory for arrays that stand one after the other and are given up together, kept for the next ones. What is in them
-/// at first is of no meaning.
+/// Memory for arrays that are given up together, kept for the next ones. What is in them at first is of no meaning.
 class WorkingMemory {
  public:
-  /// Takes all back. There is room for `bytes` from now on.
-  void start(std::size_t bytes) {
-    if (pieces_.size() == 1) pieces_.back()->take_back();
-    if (pieces_.size() == 1 && pieces_.back()->has_room(bytes)) return;
-    const std::size_t held = memory_bytes();
-    pieces_.clear();
-    pieces_.push_back(std::make_unique<SharedPages>(std::max(bytes, held)));
+  /// Takes all back.
+  void start() {
+    for (const auto& piece : pieces_) piece->take_back();
   }
 
-  /// Makes sure that there is room for `bytes` more, without moving what stands there.
+  /// Makes sure that there is room for `bytes` in one piece. A larger piece replaces one that nothing is taken of.
   void require(std::size_t bytes) {
-    if (pieces_.empty() || !pieces_.back()->has_room(bytes)) pieces_.push_back(std::make_unique<SharedPages>(bytes));
+    if (piece_with(bytes) != nullptr) return;
+    const auto is_free = [](const auto& piece) { return piece->is_free(); };
+    const auto spare = std::find_if(pieces_.begin(), pieces_.end(), is_free);
+    if (spare != pieces_.end()) pieces_.erase(spare);
+    pieces_.push_back(std::make_unique<SharedPages>(bytes));
   }
 
   /// An array of `count` values.
   template <class Value>
   Value* take(std::size_t count) {
-    require(SharedPages::room_for<Value>(count));
-    return pieces_.back()->template take<Value>(count);
-  }
-
-  /// How much is taken.
-  struct Mark {
-    std::size_t pieces, taken;
-  };
-  Mark mark() const { return {pieces_.size(), pieces_.back()->taken()}; }
-
-  /// Takes back what was taken since.
-  void take_back_to(const Mark& mark) {
-    pieces_.resize(mark.pieces);
-    pieces_.back()->take_back_to(mark.taken);
+    const std::size_t bytes = SharedPages::room_for<Value>(count);
+    require(bytes);
+    return piece_with(bytes)->template take<Value>(count);
   }
 
   std::size_t memory_bytes() const noexcept {
@@ -53,6 +41,13 @@ class WorkingMemory {
   }
 
  private:
+  SharedPages* piece_with(std::size_t room) const {
+    for (const auto& piece : pieces_) {
+      if (piece->has_room(room)) return piece.get();
+    }
+    return nullptr;
+  }
+
   std::vector<std::unique_ptr<SharedPages>> pieces_;
 };
 
