@@ -43,40 +43,72 @@ void clear_dark(const std::uint8_t* dark, std::size_t count, const MaskBit& mask
   }
 }
 
+// Those with a place are listed, the others stay.
+void split_by_place(std::vector<std::uint32_t>& numbers, PlacedPoints& listed) {
+  std::size_t placed = 0, others = 0;
+  listed.numbers.resize(numbers.size());
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    if (listed.texels[k] == simd::OpenPlaces::kNone) {
+      numbers[others++] = numbers[k];
+      continue;
+    }
+    listed.numbers[placed] = numbers[k];
+    listed.texels[placed] = listed.texels[k];
+    listed.depths[placed++] = listed.depths[k];
+  }
+  numbers.resize(others);
+  listed.numbers.resize(placed);
+}
+
 }  // namespace
+
+double size_of_offsets(const AskedPoints& points, const Vector& light) {
+  return 3 * points.step * 0x1p31 + 3 * length(points.origin - DVector(light));
+}
 
 std::size_t DecidedPoints::memory_bytes() const noexcept {
   return bytes_of(asked) + bytes_of(dark) + bytes_of(numbers) + bytes_of(open.x) + bytes_of(open.y) + bytes_of(open.z) +
-         bytes_of(open.faces);
+         bytes_of(open.faces) + listed.memory_bytes();
 }
 
-double decide_points(const LightBounds& bounds, const Vector& light, const AskedPoints& points, const MaskBit& mask,
-                     DecidedPoints& work, Counters& counters) {
+DecidedCount decide_points(const LightBounds& bounds, const Vector& light, const AskedPoints& points,
+                           const MaskBit& mask, DecidedPoints& work, Counters& counters, bool asks_lists) {
   const std::size_t count = points.size();
+  const TexelLists* lists = asks_lists ? bounds.lists() : nullptr;
   work.dark.resize(count + kPadding);
   work.numbers.clear();
-  // No offset is longer: coordinates have 32 bits.
-  const DVector from_light = points.origin - DVector(light);
-  const double size = 3 * points.step * 0x1p31 + 3 * length(from_light);
-  const auto from = PointProjection(points, light, size)
+  work.listed.numbers.clear();
+  const auto from = PointProjection(points, light, size_of_offsets(points, light))
                         .onto(bounds.frame(), simd::kShadowGreatestSlack, asked_bytes(mask, count, work.asked),
                               static_cast<std::uint8_t>(1u << (mask.bit % 8)));
   work.faces = bounds.all_faces_are_beyond(from.nearest) ? bounds.faces() : nullptr;
-  std::size_t asked = 0;
+  DecidedCount result;
+  std::size_t open = 0;
   for (std::size_t first = 0; first < count; first += kSlice) {
-    const std::size_t last = std::min(first + kSlice, count), before = work.numbers.size();
-    work.numbers.resize(before + (last - first) + kPadding);
+    const std::size_t last = std::min(first + kSlice, count), room = open + (last - first) + kPadding;
+    work.numbers.resize(room);
+    simd::OpenPlaces places;
+    if (lists != nullptr) {
+      work.listed.texels.resize(room);
+      work.listed.depths.resize(room);
+      places = {lists->size(), &work.listed.texels[open], &work.listed.depths[open]};
+    }
     const auto counts =
-        simd::decide_points(from, bounds.texels(), first, last, work.dark.data(), &work.numbers[before]);
-    asked += counts.asked;
-    work.numbers.resize(before + counts.open);
-    copy_points(points, work.numbers, before, work.open);
+        simd::decide_points(from, bounds.texels(), first, last, work.dark.data(), &work.numbers[open], places);
+    work.numbers.resize(open + counts.open);
+    if (lists == nullptr) copy_points(points, work.numbers, open, work.open);
+    open += counts.open;
+    result.asked += counts.asked;
+  }
+  if (lists != nullptr) {
+    split_by_place(work.numbers, work.listed);
+    copy_points(points, work.numbers, 0, work.open);
   }
   const std::unique_lock lock = mask.hold();
   clear_dark(work.dark.data(), count, mask);
-  const std::size_t decided = asked - work.numbers.size();
-  counters.by_float += decided;
-  return asked > 0 ? static_cast<double>(decided) / static_cast<double>(asked) : 1;
+  result.decided = result.asked - open;
+  counters.by_float += result.decided;
+  return result;
 }
 
 }  // namespace facemap

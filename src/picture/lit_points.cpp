@@ -100,9 +100,16 @@ void clear_blocked(const LightWork& work, const SampleGrid& grid, const MovedPoi
         const LightBounds* bounds = work.bounds != nullptr ? work.bounds->of(l, outside_camera) : nullptr;
         if (bounds != nullptr) {
           DecidedPoints& decided = work.bounds->work(worker);
-          const double share = decide_points(*bounds, light, points, mask, decided, own);
+          const bool asks_lists = can_ask_lists(scene, light, size_of_offsets(points, light));
+          const DecidedCount count = decide_points(*bounds, light, points, mask, decided, own, asks_lists);
+          std::size_t held = 0;
+          if (!decided.listed.numbers.empty()) {
+            held =
+                ask_lists(scene, light, *bounds->lists(), points, mask, is_between, decided.listed, decided.dark, own);
+          }
           ask_some(decided.open, decided.numbers.data(), skip_entries, decided.faces);
-          if (share < KeptBounds::kWorthKeeping) work.bounds->drop(l);
+          const bool has_lists = asks_lists && bounds->lists() != nullptr;
+          if (!KeptBounds::are_worth_keeping(count, has_lists, held)) work.bounds->drop(l);
         } else {
           clear_blocked(scene, light, points, mask, skip_entries, is_between, scratch, &own);
         }
