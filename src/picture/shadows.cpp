@@ -88,6 +88,7 @@ class LightPass {
         from_light_(points.origin - DVector(light)) {}
 
   void run() {
+    if (points_.size() == 0) return;  // then there may be no masks either
     const std::size_t most = mask_.most != 0 ? mask_.most : count_asked();
     if (most == 0) return;
     parts_.memory.start();

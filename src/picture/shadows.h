@@ -65,7 +65,7 @@ struct MaskBit {
 /// `light` and the point. The transposed way: points are sorted into a raster about the light, then the faces run over
 /// them; no list is made. `skip_entries` (one byte a face, or null): where it is not 0 the face may be left out if it
 /// is turned towards the light (entry faces of closed parts). `some`, or null: no other faces stand between the light
-/// and any of the points. Exact, whatever the order.
+/// and any of the points. Exact, whatever the order. Fewer than 2^31 points: kernels gather by signed 32-bit numbers.
 void clear_blocked(const Scene& scene, const Vector& light, const AskedPoints& points, const MaskBit& mask,
                    const std::uint8_t* skip_entries, const BlocksExactly& blocks_exactly, ShadowScratch& scratch,
                    Counters* counters = nullptr, const std::vector<std::uint32_t>* some = nullptr);
