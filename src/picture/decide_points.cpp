@@ -43,21 +43,25 @@ void clear_dark(const std::uint8_t* dark, std::size_t count, const MaskBit& mask
   }
 }
 
-// Those with a place are listed, the others stay.
-void split_by_place(std::vector<std::uint32_t>& numbers, PlacedPoints& listed) {
-  std::size_t placed = 0, others = 0;
-  listed.numbers.resize(numbers.size());
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
+// Those without a place go to `others`.
+void split_by_place(PlacedPoints& listed, std::vector<std::uint32_t>& others) {
+  std::size_t placed = 0;
+  for (std::size_t k = 0; k < listed.numbers.size(); ++k) {
     if (listed.texels[k] == simd::OpenPlaces::kNone) {
-      numbers[others++] = numbers[k];
+      others.push_back(listed.numbers[k]);
       continue;
     }
-    listed.numbers[placed] = numbers[k];
+    listed.numbers[placed] = listed.numbers[k];
     listed.texels[placed] = listed.texels[k];
     listed.depths[placed++] = listed.depths[k];
   }
-  numbers.resize(others);
   listed.numbers.resize(placed);
+}
+
+// Working memory is kept: little of it is to spare.
+void make_room(std::vector<std::uint32_t>& v, std::size_t size) {
+  if (size > v.capacity()) v.reserve(size + size / 8);
+  v.resize(size);
 }
 
 }  // namespace
@@ -83,25 +87,26 @@ DecidedCount decide_points(const LightBounds& bounds, const Vector& light, const
                               static_cast<std::uint8_t>(1u << (mask.bit % 8)));
   work.faces = bounds.all_faces_are_beyond(from.nearest) ? bounds.faces() : nullptr;
   DecidedCount result;
+  std::vector<std::uint32_t>& numbers = lists != nullptr ? work.listed.numbers : work.numbers;
   std::size_t open = 0;
   for (std::size_t first = 0; first < count; first += kSlice) {
     const std::size_t last = std::min(first + kSlice, count), room = open + (last - first) + kPadding;
-    work.numbers.resize(room);
+    make_room(numbers, room);
     simd::OpenPlaces places;
     if (lists != nullptr) {
-      work.listed.texels.resize(room);
-      work.listed.depths.resize(room);
+      make_room(work.listed.texels, room);
+      make_room(work.listed.depths, room);
       places = {lists->size(), &work.listed.texels[open], &work.listed.depths[open]};
     }
     const auto counts =
-        simd::decide_points(from, bounds.texels(), first, last, work.dark.data(), &work.numbers[open], places);
-    work.numbers.resize(open + counts.open);
+        simd::decide_points(from, bounds.texels(), first, last, work.dark.data(), &numbers[open], places);
+    numbers.resize(open + counts.open);
     if (lists == nullptr) copy_points(points, work.numbers, open, work.open);
     open += counts.open;
     result.asked += counts.asked;
   }
   if (lists != nullptr) {
-    split_by_place(work.numbers, work.listed);
+    split_by_place(work.listed, work.numbers);
     copy_points(points, work.numbers, 0, work.open);
   }
   const std::unique_lock lock = mask.hold();

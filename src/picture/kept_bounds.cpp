@@ -1,5 +1,7 @@
 #include "picture/kept_bounds.h"
 
+#include <algorithm>
+
 #include "scene/face_neighbours.h"
 
 namespace facemap {
@@ -20,6 +22,11 @@ void KeptBounds::make(const Scene& scene, const std::vector<Vector>& lights, con
 
 const LightBounds* KeptBounds::of(std::size_t light, const std::vector<std::uint8_t>& outside_camera) const {
   return are_made() && of_lights_[light] && outside_camera == outside_camera_ ? &*of_lights_[light] : nullptr;
+}
+
+void KeptBounds::tidy() {
+  const bool has_any = std::any_of(of_lights_.begin(), of_lights_.end(), [](const auto& of) { return of.has_value(); });
+  if (!has_any) work_ = std::vector<DecidedPoints>(work_.size());
 }
 
 std::size_t KeptBounds::memory_bytes() const noexcept {

@@ -37,6 +37,9 @@ class KeptBounds {
   /// Gives up those of a light. Several threads may do so, for a light each.
   void drop(std::size_t light) { of_lights_[light].reset(); }
 
+  /// Gives up the working memory if no light has bounds any more. Not while a picture is made.
+  void tidy();
+
   /// One a worker of the executor.
   DecidedPoints& work(int worker) { return work_[static_cast<std::size_t>(worker)]; }
 

@@ -24,7 +24,7 @@ constexpr std::size_t kMostBoxTexels = 200, kMostLayers = 64;
 
 // A light's bounds and lists together take so many bytes a face: lists that would need more are left out. Eight lights
 // take three times what a hierarchy of boxes does, which serves all lights.
-constexpr std::size_t kMostBytesPerFace = 28;
+constexpr std::size_t kMostBytesPerFace = 26;
 constexpr std::size_t kUsualBytes = std::size_t{1} << 18;  // which are little however few the faces
 constexpr std::size_t kBytesPerEntry = 6;
 
@@ -70,12 +70,12 @@ class LightBounds::Finder {
     bounds_.size_ = size_for(scene.kept_faces().size());
   }
 
-  bool find(const std::vector<FaceNeighbours>& neighbours) {
+  bool find(const std::vector<FaceNeighbours>& neighbours, bool wants_lists) {
     if (!find_scale() || is_too_much()) return false;
     const std::vector<float> lit = find_lit();
     encode(lit, find_dark(scene_, neighbours, places_, bounds_.size_));
-    find_faces();
-    find_lists();
+    if (wants_lists) find_lists();
+    if (!bounds_.lists_.any()) find_faces();
     return true;
   }
 
@@ -221,12 +221,12 @@ class LightBounds::Finder {
 };
 
 std::optional<LightBounds> LightBounds::find(const Scene& scene, const Vector& light, const std::uint8_t* skip_entries,
-                                             const std::vector<FaceNeighbours>& neighbours) {
+                                             const std::vector<FaceNeighbours>& neighbours, bool wants_lists) {
   if (scene.kept_faces().empty()) return {};
   const auto frame = frame_towards(light, box_of_faces(scene, light), 0);
   if (!frame) return {};
   LightBounds bounds;
-  if (!Finder(scene, skip_entries, *frame, bounds).find(neighbours)) return {};
+  if (!Finder(scene, skip_entries, *frame, bounds).find(neighbours, wants_lists)) return {};
   return bounds;
 }
 

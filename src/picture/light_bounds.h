@@ -19,12 +19,13 @@ class LightBounds {
  public:
   /// `skip_entries`, one byte a face, or null: as for clear_blocked; then `lit` holds for points that may leave those
   /// faces out. Nothing if the light does not have all of the scene well in front of it, or if large
-  /// faces lie over each other so often that it would take long.
+  /// faces lie over each other so often that it would take long. `wants_lists`: of faces by texel; else, and where they
+  /// do not fit, one list serves all texels.
   ///
   /// Time: about 450 ns a face. Memory: 4 bytes a texel, which are at most 1 MB or, with more faces, as many as faces;
-  /// with lists at most 28 bytes a face; 9 bytes a texel and 70 a face while it is made.
+  /// with lists at most 26 bytes a face; 9 bytes a texel and 70 a face while it is made.
   static std::optional<LightBounds> find(const Scene& scene, const Vector& light, const std::uint8_t* skip_entries,
-                                         const std::vector<FaceNeighbours>& neighbours);
+                                         const std::vector<FaceNeighbours>& neighbours, bool wants_lists = true);
 
   const simd::ShadowFrame& frame() const noexcept { return frame_; }
   simd::TexelBounds texels() const noexcept { return {texels_.data(), size_, w_least_, w_scale_}; }

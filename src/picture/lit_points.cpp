@@ -119,6 +119,7 @@ void clear_blocked(const LightWork& work, const SampleGrid& grid, const MovedPoi
         const std::vector<std::uint32_t> numbers = still_lit(seen.loose, mask);
         if (!numbers.empty()) ask_some(subset(points, numbers), numbers.data(), nullptr, nullptr);
       });
+  if (work.bounds != nullptr) work.bounds->tidy();
 }
 
 void clear_blocked_by_lists(const std::vector<PointLight>& lists, const Scene& scene, const SampleGrid& grid,

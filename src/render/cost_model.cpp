@@ -16,7 +16,7 @@ constexpr double kListFace = 300;           // a face put into lists
 constexpr double kBoundsFace = 450;         // a face that takes part in making a light's bounds
 constexpr double kBoundedShare = 0.6;       // of the transposed way's time, when bounds are there
 constexpr double kBytesOfBounds = 1 << 20;  // of one light, and those a face
-constexpr double kBoundsBytesPerFace = 28;
+constexpr double kBoundsBytesPerFace = 26;
 constexpr double kListBytesPerFace = 100;  // of the lists and planes of one light
 
 // Share of a picture's samples that ask a light: those that hit a face which the light faces.

@@ -266,7 +266,7 @@ TEST(LightBounds, LeaveOutEntryFacesOfClosedPartsAlone) {
     const std::vector<std::uint8_t> skips =
         closed.skippable_entries(scene, std::vector<std::uint8_t>(closed.closed_count(), 1), light);
     if (skips.empty()) continue;
-    const auto bounds = LightBounds::find(scene, light, skips.data(), find_face_neighbours(scene));
+    const auto bounds = LightBounds::find(scene, light, skips.data(), find_face_neighbours(scene), false);
     if (!bounds) continue;
     std::vector<Vector> points;
     for (int i = 0; i < 200; ++i) points.push_back(make_point(test, random));
