@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "picture/ask_lists.h"
 #include "scene/face_neighbours.h"
 
 namespace facemap {
@@ -15,7 +16,9 @@ void KeptBounds::make(const Scene& scene, const std::vector<Vector>& lights, con
   executor.for_each(lights.size(), [&](std::size_t l, int) {
     std::vector<std::uint8_t> skippable;
     if (closed != nullptr) skippable = closed->skippable_entries(scene, outside_camera, lights[l]);
-    made[l] = LightBounds::find(scene, lights[l], skippable.empty() ? nullptr : skippable.data(), neighbours);
+    const bool wants_lists = can_ask_lists(scene, lights[l], 0);  // else no picture's points will ask them
+    made[l] =
+        LightBounds::find(scene, lights[l], skippable.empty() ? nullptr : skippable.data(), neighbours, wants_lists);
   });
   of_lights_ = std::move(made);
 }

@@ -34,6 +34,7 @@ TexelLists TexelLists::Maker::take() {
   std::vector<std::uint32_t> begins(texels + 1, 0);
   for (const Waiting& w : waiting_) ++begins[w.texel];
   lists_.begins_.resize(texels + 1);
+  lists_.begins_of_sixteen_.reserve(texels / simd::ListBegins::kTexels + 1);
   std::uint32_t sum = 0;
   for (std::size_t t = 0; t <= texels; ++t) {
     const std::uint32_t count = begins[t];

@@ -12,6 +12,7 @@
 #include "picture/decide_points.h"
 #include "picture/face_texels.h"
 #include "picture/gnomonic.h"
+#include "picture/kept_bounds.h"
 #include "scene/closed_parts.h"
 #include "simd/shadow_faces.h"
 #include "simd/target.h"
@@ -300,6 +301,21 @@ TEST(LightBounds, LeaveOutEntryFacesOfClosedPartsAlone) {
   EXPECT_GT(lit, 1000u);
   EXPECT_GT(dark, 1000u);
   EXPECT_GT(listed, 1000u);
+}
+
+// Else all points that are left open would ask all faces.
+TEST(KeptBounds, HaveListsOnlyWhereTheyCanBeAsked) {
+  Random random(0x5eed007c);
+  const TestScene test = test_scenes::make_scene(Kind::Patch, 300, random);
+  for (const float factor : {1.0f, 0x1p40f}) {
+    const Scene scene(test_scenes::scaled(test.mesh, factor));
+    const Vector light(double{factor} * (DVector(test.centre) + DVector(1, 3, 2) * test.radius));
+    KeptBounds kept;
+    kept.make(scene, {light}, nullptr, {}, Executor(1));
+    const LightBounds* bounds = kept.of(0, {});
+    ASSERT_NE(bounds, nullptr);
+    EXPECT_EQ(bounds->lists() != nullptr, factor == 1);
+  }
 }
 
 TEST(LightBounds, AreNotMadeForALightAmongTheFaces) {
