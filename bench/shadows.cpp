@@ -20,6 +20,7 @@
 #include "picture/gnomonic.h"
 #include "picture/light_bounds.h"
 #include "picture/nearest_faces.h"
+#include "picture/point_list.h"
 #include "picture/seen_points.h"
 #include "picture/shadow_faces.h"
 #include "picture/shadow_points.h"
@@ -108,26 +109,15 @@ struct Kernels {
     const Scene& scene = picture.scene;
     const DVector to_light(light);
     frame = *frame_towards(light, {DVector(scene.lower()) - to_light, DVector(scene.upper()) - to_light}, points.error);
-    wanted.assign(points.size() + 64, 0);
-    std::fill_n(wanted.begin(), points.size(), std::uint8_t{1});
-    from = {points.x.data(),
-            points.y.data(),
-            points.z.data(),
-            points.faces.data(),
-            wanted.data(),
-            1,
-            points.size(),
-            {},
-            {},
-            0};
+    wanted.assign(points.size(), 1);
     for (int i = 0; i < 3; ++i) {
       for (int k = 0; k < 3; ++k) {
-        from.matrix[i][k] = frame.rows[i][k] * points.step;
-        from.offset[i] += frame.rows[i][k] * (points.origin - to_light)[k];
+        transform.matrix[i][k] = frame.rows[i][k] * points.step;
+        transform.offset[i] += frame.rows[i][k] * (points.origin - to_light)[k];
       }
     }
     std::vector<std::uint32_t> rest;
-    sorted.sort(from, points.size(), scene.face_count(), rest);
+    sort(rest);
     places.resize(3 * (scene.mesh().positions.size() + 16));
     project();
     corners.resize(simd::kShadowFaces / 16);
@@ -136,6 +126,18 @@ struct Kernels {
         for (int axis = 0; axis < 3; ++axis) corners[f / 16].of[k][axis][f % 16] = scene.mesh().vertex(f, k)[axis];
       }
     }
+  }
+
+  simd::ListedPoints list() {
+    const std::size_t count = points.size();
+    memory.start();
+    simd::ListedPoints all = list_in(memory, count);
+    simd::list_wanted(arrays_of(points), {wanted.data(), 1, 1}, all);
+    return all;
+  }
+
+  void sort(std::vector<std::uint32_t>& rest) {
+    sorted.sort(list(), transform, points.faces.data(), picture.scene.face_count(), memory, rest);
   }
 
   void project() {
@@ -157,39 +159,24 @@ struct Kernels {
   const Vector light;
   simd::ShadowFrame frame;
   std::vector<std::uint8_t> wanted;
-  simd::PointsToProject from;
+  simd::PointTransform transform{};
+  WorkingMemory memory;
   ShadowPoints sorted;
   std::vector<float> places;
   simd::SiftedFaces sifted;
   std::vector<simd::ShadowCorners> corners;
 };
 
-void measure_wanted(benchmark::State& state) {
-  const Kernels k;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        simd::measure_wanted(k.from.x, k.from.y, k.from.z, k.wanted.data(), k.points.size()).count);
-  }
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(k.points.size()));
-}
-
-void count_points(benchmark::State& state) {
-  const Kernels k;
-  const simd::ShadowRaster raster = k.sorted.raster();
-  std::vector<std::uint32_t> counts(static_cast<std::size_t>(raster.columns) * static_cast<std::size_t>(raster.rows) +
-                                    64);
-  std::vector<std::uint32_t> rest;
-  for (auto _ : state) {
-    benchmark::DoNotOptimize(simd::count_points(k.from, raster, counts.data(), nullptr, rest));
-    rest.clear();
-  }
+void list_wanted(benchmark::State& state) {
+  Kernels k;
+  for (auto _ : state) benchmark::DoNotOptimize(k.list().x);
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(k.points.size()));
 }
 
 void sort_points(benchmark::State& state) {
   Kernels k;
   std::vector<std::uint32_t> rest;
-  for (auto _ : state) k.sorted.sort(k.from, k.points.size(), k.picture.scene.face_count(), rest);
+  for (auto _ : state) k.sort(rest);
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(k.points.size()));
 }
 
@@ -229,7 +216,7 @@ void all_faces(benchmark::State& state) {
   std::vector<std::uint32_t> rest;
   for (auto _ : state) {
     state.PauseTiming();
-    k.sorted.sort(k.from, k.points.size(), scene.face_count(), rest);
+    k.sort(rest);
     state.ResumeTiming();
     faces.run({scene, k.light, k.frame, 1, nullptr, nullptr, never}, k.sorted, counters);
   }
@@ -259,8 +246,10 @@ void decide_points(benchmark::State& state) {
   std::vector<std::uint8_t> dark(k.points.size() + 64);
   std::vector<std::uint32_t> open(k.points.size() + 64);
   const simd::TexelBounds texels = bounds.value().texels();
+  const simd::PointsToProject from{
+      k.transform, k.points.x.data(), k.points.y.data(), k.points.z.data(), k.wanted.data(), 1, k.points.size()};
   for (auto _ : state) {
-    const auto counts = simd::decide_points(k.from, texels, 0, k.points.size(), dark.data(), open.data());
+    const auto counts = simd::decide_points(from, texels, 0, k.points.size(), dark.data(), open.data());
     benchmark::DoNotOptimize(counts.open);
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(k.points.size()));
@@ -279,8 +268,7 @@ void add(const std::string& name, int detail) {
 int main(int argc, char** argv) {
   for (const std::string& name : generator_names()) add(name, 1);
   add("chessboard", 4);
-  benchmark::RegisterBenchmark("measure_wanted", measure_wanted)->Unit(benchmark::kMillisecond);
-  benchmark::RegisterBenchmark("count_points", count_points)->Unit(benchmark::kMillisecond);
+  benchmark::RegisterBenchmark("list_wanted", list_wanted)->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark("sort_points", sort_points)->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark("find_neighbours", find_neighbours)->Unit(benchmark::kMillisecond);
   benchmark::RegisterBenchmark("find_bounds", find_bounds)->Unit(benchmark::kMillisecond);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "picture/unset_vector.h"
+#include "simd/listed_points.h"
 
 namespace facemap {
 
@@ -25,6 +26,11 @@ struct AskedPoints {
 
   std::size_t size() const noexcept { return x.size(); }
 };
+
+/// For kernels.
+inline simd::PointArrays arrays_of(const AskedPoints& points) {
+  return {points.x.data(), points.y.data(), points.z.data(), points.size()};
+}
 
 /// Makes `some` the points of these numbers, all but their samples: those of places `first` on, as the ones before are
 /// there already.

@@ -43,40 +43,77 @@ void clear_dark(const std::uint8_t* dark, std::size_t count, const MaskBit& mask
   }
 }
 
+// Those without a place go to `others`.
+void split_by_place(PlacedPoints& listed, std::vector<std::uint32_t>& others) {
+  std::size_t placed = 0;
+  for (std::size_t k = 0; k < listed.numbers.size(); ++k) {
+    if (listed.texels[k] == simd::OpenPlaces::kNone) {
+      others.push_back(listed.numbers[k]);
+      continue;
+    }
+    listed.numbers[placed] = listed.numbers[k];
+    listed.texels[placed] = listed.texels[k];
+    listed.depths[placed++] = listed.depths[k];
+  }
+  listed.numbers.resize(placed);
+}
+
+// Working memory is kept: little of it is to spare.
+void make_room(std::vector<std::uint32_t>& v, std::size_t size) {
+  if (size > v.capacity()) v.reserve(size + size / 8);
+  v.resize(size);
+}
+
 }  // namespace
+
+double size_of_offsets(const AskedPoints& points, const Vector& light) {
+  return 3 * points.step * 0x1p31 + 3 * length(points.origin - DVector(light));
+}
 
 std::size_t DecidedPoints::memory_bytes() const noexcept {
   return bytes_of(asked) + bytes_of(dark) + bytes_of(numbers) + bytes_of(open.x) + bytes_of(open.y) + bytes_of(open.z) +
-         bytes_of(open.faces);
+         bytes_of(open.faces) + listed.memory_bytes();
 }
 
-double decide_points(const LightBounds& bounds, const Vector& light, const AskedPoints& points, const MaskBit& mask,
-                     DecidedPoints& work, Counters& counters) {
+DecidedCount decide_points(const LightBounds& bounds, const Vector& light, const AskedPoints& points,
+                           const MaskBit& mask, DecidedPoints& work, Counters& counters, bool asks_lists) {
   const std::size_t count = points.size();
+  const TexelLists* lists = asks_lists ? bounds.lists() : nullptr;
   work.dark.resize(count + kPadding);
   work.numbers.clear();
-  // No offset is longer: coordinates have 32 bits.
-  const DVector from_light = points.origin - DVector(light);
-  const double size = 3 * points.step * 0x1p31 + 3 * length(from_light);
-  const auto from = PointProjection(points, light, size)
+  work.listed.numbers.clear();
+  const auto from = PointProjection(points, light, size_of_offsets(points, light))
                         .onto(bounds.frame(), simd::kShadowGreatestSlack, asked_bytes(mask, count, work.asked),
                               static_cast<std::uint8_t>(1u << (mask.bit % 8)));
   work.faces = bounds.all_faces_are_beyond(from.nearest) ? bounds.faces() : nullptr;
-  std::size_t asked = 0;
+  DecidedCount result;
+  std::vector<std::uint32_t>& numbers = lists != nullptr ? work.listed.numbers : work.numbers;
+  std::size_t open = 0;
   for (std::size_t first = 0; first < count; first += kSlice) {
-    const std::size_t last = std::min(first + kSlice, count), before = work.numbers.size();
-    work.numbers.resize(before + (last - first) + kPadding);
+    const std::size_t last = std::min(first + kSlice, count), room = open + (last - first) + kPadding;
+    make_room(numbers, room);
+    simd::OpenPlaces places;
+    if (lists != nullptr) {
+      make_room(work.listed.texels, room);
+      make_room(work.listed.depths, room);
+      places = {lists->size(), &work.listed.texels[open], &work.listed.depths[open]};
+    }
     const auto counts =
-        simd::decide_points(from, bounds.texels(), first, last, work.dark.data(), &work.numbers[before]);
-    asked += counts.asked;
-    work.numbers.resize(before + counts.open);
-    copy_points(points, work.numbers, before, work.open);
+        simd::decide_points(from, bounds.texels(), first, last, work.dark.data(), &numbers[open], places);
+    numbers.resize(open + counts.open);
+    if (lists == nullptr) copy_points(points, work.numbers, open, work.open);
+    open += counts.open;
+    result.asked += counts.asked;
+  }
+  if (lists != nullptr) {
+    split_by_place(work.listed, work.numbers);
+    copy_points(points, work.numbers, 0, work.open);
   }
   const std::unique_lock lock = mask.hold();
   clear_dark(work.dark.data(), count, mask);
-  const std::size_t decided = asked - work.numbers.size();
-  counters.by_float += decided;
-  return asked > 0 ? static_cast<double>(decided) / static_cast<double>(asked) : 1;
+  result.decided = result.asked - open;
+  counters.by_float += result.decided;
+  return result;
 }
 
 }  // namespace facemap

@@ -35,11 +35,22 @@ class FaceTexels {
   int row0() const { return row0_; }
   int row1() const { return row1_; }
 
+  /// First and last column; none if the first is after the last.
+  struct Span {
+    int first, last;
+  };
+
+  /// The texels of a row, any row.
+  Span columns_in(int row) const {
+    if (row < row0_ || row > row1_) return {0, -1};
+    return is_large_ ? span_in(row, 1) : Span{column0_, column1_};
+  }
+
   /// Calls visit(piece), row by row.
   template <class Visit>
   void for_each(const Visit& visit) const {
     for (int row = row0_; row <= row1_; ++row) {
-      const Span all = is_large_ ? span_in(row, 1) : Span{column0_, column1_};
+      const Span all = columns_in(row);
       const Span within = is_large_ ? span_in(row, -1) : Span{0, -1};
       for (int column = all.first; column <= all.last; ++column) {
         Piece piece{static_cast<std::size_t>(row) * static_cast<std::size_t>(size_) + static_cast<std::size_t>(column),
@@ -51,9 +62,6 @@ class FaceTexels {
   }
 
  private:
-  struct Span {
-    int first, last;
-  };
   Span span_in(int row, int sign) const;
 
   // In the plane of the raster, w may be bounded more closely than by its corners.

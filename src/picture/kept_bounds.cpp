@@ -1,5 +1,8 @@
 #include "picture/kept_bounds.h"
 
+#include <algorithm>
+
+#include "picture/ask_lists.h"
 #include "scene/face_neighbours.h"
 
 namespace facemap {
@@ -13,13 +16,20 @@ void KeptBounds::make(const Scene& scene, const std::vector<Vector>& lights, con
   executor.for_each(lights.size(), [&](std::size_t l, int) {
     std::vector<std::uint8_t> skippable;
     if (closed != nullptr) skippable = closed->skippable_entries(scene, outside_camera, lights[l]);
-    made[l] = LightBounds::find(scene, lights[l], skippable.empty() ? nullptr : skippable.data(), neighbours);
+    const bool wants_lists = can_ask_lists(scene, lights[l], 0);  // else no picture's points will ask them
+    made[l] =
+        LightBounds::find(scene, lights[l], skippable.empty() ? nullptr : skippable.data(), neighbours, wants_lists);
   });
   of_lights_ = std::move(made);
 }
 
 const LightBounds* KeptBounds::of(std::size_t light, const std::vector<std::uint8_t>& outside_camera) const {
   return are_made() && of_lights_[light] && outside_camera == outside_camera_ ? &*of_lights_[light] : nullptr;
+}
+
+void KeptBounds::tidy() {
+  const bool has_any = std::any_of(of_lights_.begin(), of_lights_.end(), [](const auto& of) { return of.has_value(); });
+  if (!has_any) work_ = std::vector<DecidedPoints>(work_.size());
 }
 
 std::size_t KeptBounds::memory_bytes() const noexcept {

@@ -26,11 +26,19 @@ class KeptBounds {
   /// Those of a light, or null where there are none for such a camera.
   const LightBounds* of(std::size_t light, const std::vector<std::uint8_t>& outside_camera) const;
 
-  /// Bounds that decide less than this share of a picture's points cost more than they save.
-  static constexpr double kWorthKeeping = 0.3;
+  /// Whether a light's bounds save more than they cost, after a picture: without lists if they decide enough of its
+  /// points, with lists if those held few enough faces against the others.
+  static bool are_worth_keeping(const DecidedCount& count, bool has_lists, std::size_t pairs) {
+    const auto asked = static_cast<double>(count.asked);
+    return has_lists ? static_cast<double>(pairs) <= kMostPairs * asked
+                     : static_cast<double>(count.decided) >= kLeastDecided * asked;
+  }
 
   /// Gives up those of a light. Several threads may do so, for a light each.
   void drop(std::size_t light) { of_lights_[light].reset(); }
+
+  /// Gives up the working memory if no light has bounds any more. Not while a picture is made.
+  void tidy();
 
   /// One a worker of the executor.
   DecidedPoints& work(int worker) { return work_[static_cast<std::size_t>(worker)]; }
@@ -38,6 +46,9 @@ class KeptBounds {
   std::size_t memory_bytes() const noexcept;
 
  private:
+  // Shares of the points asked.
+  static constexpr double kLeastDecided = 0.3, kMostPairs = 3;
+
   std::vector<std::uint8_t> outside_camera_;
   std::vector<std::optional<LightBounds>> of_lights_;
   std::vector<DecidedPoints> work_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "picture/face_spots.h"
 #include "picture/face_texels.h"
 #include "picture/gnomonic.h"
 #include "picture/light_patches.h"
@@ -12,10 +13,8 @@
 namespace facemap {
 namespace {
 
-constexpr int kLeastSize = 64, kMostSize = 512;  // texels a side
-
-// A raster has at least so many texels a face.
-constexpr std::size_t kTexelsPerFace = 1;
+// Texels a side: a raster has more texels than there are faces up to the usual size, and fewer beyond it.
+constexpr int kLeastSize = 64, kUsualSize = 512, kMostSize = 2048;
 
 // Faces are listed if they are at most this share of all: a list costs memory and order.
 constexpr double kWorthListing = 0.7;
@@ -23,14 +22,20 @@ constexpr double kWorthListing = 0.7;
 // The boxes of all faces may have so many texels: for each face, and times the whole raster.
 constexpr std::size_t kMostBoxTexels = 200, kMostLayers = 64;
 
+// A light's bounds and lists together take so many bytes a face: lists that would need more are left out. Eight lights
+// take three times what a hierarchy of boxes does, which serves all lights.
+constexpr std::size_t kMostBytesPerFace = 26;
+constexpr std::size_t kUsualBytes = std::size_t{1} << 18;  // which are little however few the faces
+constexpr std::size_t kBytesPerEntry = 6;
+
 // Coordinates of vertices on the raster are within this, or the bounds of FaceTexels would not hold.
 constexpr float kFarthestPlace = 1.25f;
 
 int size_for(std::size_t faces) {
+  const auto texels = [](int size) { return static_cast<std::size_t>(size) * static_cast<std::size_t>(size); };
   int size = kLeastSize;
-  while (size < kMostSize && static_cast<std::size_t>(size) * static_cast<std::size_t>(size) < kTexelsPerFace * faces) {
-    size *= 2;
-  }
+  while (size < kUsualSize && texels(size) < faces) size *= 2;
+  while (size < kMostSize && texels(2 * size) <= faces) size *= 2;
   return size;
 }
 
@@ -65,11 +70,12 @@ class LightBounds::Finder {
     bounds_.size_ = size_for(scene.kept_faces().size());
   }
 
-  bool find(const std::vector<FaceNeighbours>& neighbours) {
+  bool find(const std::vector<FaceNeighbours>& neighbours, bool wants_lists) {
     if (!find_scale() || is_too_much()) return false;
     const std::vector<float> lit = find_lit();
     encode(lit, find_dark(scene_, neighbours, places_, bounds_.size_));
-    find_faces();
+    if (wants_lists) find_lists();
+    if (!bounds_.lists_.any()) find_faces();
     return true;
   }
 
@@ -159,6 +165,55 @@ class LightBounds::Finder {
     if (bounds_.has_faces_) bounds_.faces_.assign(faces.begin(), faces.end());
   }
 
+  // Where texels have too many faces, of four texels together.
+  void find_lists() {
+    for (int size = bounds_.size_; size >= bounds_.size_ / 2 && !bounds_.lists_.any(); size /= 2) {
+      const std::size_t texels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
+      const std::size_t taken = 4 * texel_count() + 9 * texels / 4,
+                        most = std::max(kMostBytesPerFace * scene_.face_count(), kUsualBytes);
+      TexelLists::Maker maker(size, scene_.face_count(), most > taken ? (most - taken) / kBytesPerEntry : 0);
+      if (fill_lists(size, maker)) bounds_.lists_ = maker.take();
+    }
+  }
+
+  // Faces that a point may have to ask which its texel leaves open; the others are behind what is dark there.
+  bool fill_lists(int size, TexelLists::Maker& maker) const {
+    bool has_room = true;
+    for_each_face([&](std::uint32_t face, const FaceTexels& on_bounds) {
+      if (!has_room) return;
+      const float *a = place(face, 0), *b = place(face, 1), *c = place(face, 2);
+      std::optional<FaceSpots> of_face;
+      (size == bounds_.size_ ? on_bounds : FaceTexels(a, b, c, size)).for_each([&](const FaceTexels::Piece& piece) {
+        const float depth = number(piece.greatest);
+        const unsigned open = open_spots(piece.texel, size, depth);
+        if (open == 0) return;
+        if (!of_face) of_face.emplace(FaceTexels(a, b, c, simd::kTexelSpots * size), size);
+        const unsigned spots = of_face->in(piece.texel) & open;
+        if (spots != 0) has_room = has_room && maker.add(piece.texel, face, static_cast<std::uint32_t>(depth), spots);
+      });
+    });
+    return has_room;
+  }
+
+  // Whether a point that this texel leaves open may be behind a face of such a depth.
+  bool is_open(std::size_t texel, float depth) const {
+    const std::uint32_t upper = bounds_.texels_[texel] >> 16, lower = bounds_.texels_[texel] & 0xffff;
+    return upper >= lower && depth >= static_cast<float>(lower);
+  }
+
+  // The spots of a texel of lists where that is so.
+  unsigned open_spots(std::size_t texel, int size, float depth) const {
+    static_assert(simd::kTexelSpots == 4);
+    if (size == bounds_.size_) return is_open(texel, depth) ? 0xffff : 0;
+    const std::size_t row = texel / static_cast<std::size_t>(size), column = texel % static_cast<std::size_t>(size);
+    unsigned open = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t quarter = (2 * row + k / 2) * static_cast<std::size_t>(bounds_.size_) + 2 * column + k % 2;
+      if (is_open(quarter, depth)) open |= 0x0033u << (8 * (k / 2) + 2 * (k % 2));
+    }
+    return open;
+  }
+
   const Scene& scene_;
   const std::uint8_t* skip_entries_;
   LightBounds& bounds_;
@@ -166,12 +221,12 @@ class LightBounds::Finder {
 };
 
 std::optional<LightBounds> LightBounds::find(const Scene& scene, const Vector& light, const std::uint8_t* skip_entries,
-                                             const std::vector<FaceNeighbours>& neighbours) {
+                                             const std::vector<FaceNeighbours>& neighbours, bool wants_lists) {
   if (scene.kept_faces().empty()) return {};
   const auto frame = frame_towards(light, box_of_faces(scene, light), 0);
   if (!frame) return {};
   LightBounds bounds;
-  if (!Finder(scene, skip_entries, *frame, bounds).find(neighbours)) return {};
+  if (!Finder(scene, skip_entries, *frame, bounds).find(neighbours, wants_lists)) return {};
   return bounds;
 }
 

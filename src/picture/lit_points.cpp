@@ -24,11 +24,13 @@ template <class Task>
 void for_each_light(const LightWork& work, std::size_t stride, std::vector<std::uint8_t>& masks, Counters& counters,
                     const Task& task) {
   const std::vector<std::uint8_t> asked = masks;
+  const bool has_bounds = work.bounds != nullptr && work.bounds->are_made();
+  const std::size_t most = has_bounds ? 0 : most_asked(asked, stride);
   std::mutex writing, reporting;
   std::size_t done = 0;
   work.executor.for_each(work.lights.size(), [&](std::size_t l, int worker) {
     Counters own;
-    const MaskBit mask{asked.data(), masks.data(), stride, static_cast<int>(l), &writing};
+    const MaskBit mask{asked.data(), masks.data(), stride, static_cast<int>(l), &writing, most};
     task(l, mask, worker, own);
     const std::scoped_lock lock(reporting);
     counters += own;
@@ -98,9 +100,16 @@ void clear_blocked(const LightWork& work, const SampleGrid& grid, const MovedPoi
         const LightBounds* bounds = work.bounds != nullptr ? work.bounds->of(l, outside_camera) : nullptr;
         if (bounds != nullptr) {
           DecidedPoints& decided = work.bounds->work(worker);
-          const double share = decide_points(*bounds, light, points, mask, decided, own);
+          const bool asks_lists = can_ask_lists(scene, light, size_of_offsets(points, light));
+          const DecidedCount count = decide_points(*bounds, light, points, mask, decided, own, asks_lists);
+          std::size_t held = 0;
+          if (!decided.listed.numbers.empty()) {
+            held =
+                ask_lists(scene, light, *bounds->lists(), points, mask, is_between, decided.listed, decided.dark, own);
+          }
           ask_some(decided.open, decided.numbers.data(), skip_entries, decided.faces);
-          if (share < KeptBounds::kWorthKeeping) work.bounds->drop(l);
+          const bool has_lists = asks_lists && bounds->lists() != nullptr;
+          if (!KeptBounds::are_worth_keeping(count, has_lists, held)) work.bounds->drop(l);
         } else {
           clear_blocked(scene, light, points, mask, skip_entries, is_between, scratch, &own);
         }
@@ -110,6 +119,7 @@ void clear_blocked(const LightWork& work, const SampleGrid& grid, const MovedPoi
         const std::vector<std::uint32_t> numbers = still_lit(seen.loose, mask);
         if (!numbers.empty()) ask_some(subset(points, numbers), numbers.data(), nullptr, nullptr);
       });
+  if (work.bounds != nullptr) work.bounds->tidy();
 }
 
 void clear_blocked_by_lists(const std::vector<PointLight>& lists, const Scene& scene, const SampleGrid& grid,

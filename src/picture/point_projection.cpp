@@ -10,19 +10,21 @@ constexpr double kLeastZ = 0x1p-60;
 
 }  // namespace
 
-simd::PointsToProject PointProjection::onto(const simd::ShadowFrame& frame, double slack, const std::uint8_t* wanted,
-                                            std::uint8_t bit) const {
-  simd::PointsToProject from{
-      points.x.data(), points.y.data(), points.z.data(), points.faces.data(), wanted, bit, points.size(), {}, {}, 0};
+simd::PointTransform PointProjection::through(const simd::ShadowFrame& frame, double slack) const {
+  simd::PointTransform transform{};
   for (int i = 0; i < 3; ++i) {
-    from.offset[i] = 0;
     for (int k = 0; k < 3; ++k) {
-      from.matrix[i][k] = frame.rows[i][k] * points.step;
-      from.offset[i] += frame.rows[i][k] * from_light[k];
+      transform.matrix[i][k] = frame.rows[i][k] * points.step;
+      transform.offset[i] += frame.rows[i][k] * from_light[k];
     }
   }
-  from.nearest = static_cast<float>(std::max(error_in(frame) * 0x1p24 / slack, kLeastZ) * (1 + 0x1p-20));
-  return from;
+  transform.nearest = static_cast<float>(std::max(error_in(frame) * 0x1p24 / slack, kLeastZ) * (1 + 0x1p-20));
+  return transform;
+}
+
+simd::PointsToProject PointProjection::onto(const simd::ShadowFrame& frame, double slack, const std::uint8_t* wanted,
+                                            std::uint8_t bit) const {
+  return {through(frame, slack), points.x.data(), points.y.data(), points.z.data(), wanted, bit, points.size()};
 }
 
 }  // namespace facemap

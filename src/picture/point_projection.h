@@ -20,8 +20,10 @@ struct PointProjection {
   /// How far X, Y and Z may be off.
   double error_in(const simd::ShadowFrame& frame) const { return 2 * frame.largest * error; }
 
-  /// For kernels; those of `wanted` with `bit`. Points with an X, Y or Z that may be off by more than `slack` units of
-  /// 2^-24 Z are left out.
+  /// Points with an X, Y or Z that may be off by more than `slack` units of 2^-24 Z are left out.
+  simd::PointTransform through(const simd::ShadowFrame& frame, double slack) const;
+
+  /// For kernels; those of `wanted` with `bit`.
   simd::PointsToProject onto(const simd::ShadowFrame& frame, double slack, const std::uint8_t* wanted,
                              std::uint8_t bit) const;
 };

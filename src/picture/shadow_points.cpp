@@ -4,8 +4,6 @@
 #include <cstring>
 #include <limits>
 
-#include "scene/reserve_pages.h"
-
 namespace facemap {
 namespace {
 
@@ -21,17 +19,9 @@ constexpr int kMostRows = 512;
 // Spots are worth marking where there are this many faces a point: most faces then have no point in their box.
 constexpr std::size_t kFacesPerPointForSpots = 2;
 
-template <class T>
-void make_room(std::vector<T>& v, std::size_t count) {
-  if (v.size() >= count) return;
-  v.clear();  // nothing to be copied
-  reserve_pages(v, count);
-  v.resize(count);
-}
-
-template <class T>
-std::size_t bytes_of(const std::vector<T>& v) {
-  return v.capacity() * sizeof(T);
+template <class Vector>
+std::size_t bytes_of(const Vector& v) {
+  return v.capacity() * sizeof(v[0]);
 }
 
 // About two points a texel, four times as many columns as rows: a row of a face is one run of points.
@@ -48,51 +38,74 @@ simd::ShadowRaster raster_for(std::size_t points) {
   return raster;
 }
 
+// Bytes of a raster's spots.
+std::size_t spot_bytes(std::size_t texels) { return texels * simd::kSpotColumns * simd::kSpotRows / 8 + kPadding; }
+
+bool wants_spots(std::size_t points, std::size_t faces) { return faces > kFacesPerPointForSpots * points; }
+
+std::size_t blocks_for(std::size_t points) { return (points + ShadowBlock::kPoints - 1) / ShadowBlock::kPoints; }
+
 }  // namespace
 
-void ShadowPoints::sort(const simd::PointsToProject& from, std::size_t wanted, std::size_t faces,
+std::size_t ShadowPoints::bytes_for(std::size_t count, std::size_t faces) {
+  const simd::ShadowRaster raster = raster_for(count);
+  const std::size_t texels = static_cast<std::size_t>(raster.columns) * static_cast<std::size_t>(raster.rows);
+  const std::size_t blocks = blocks_for(count);
+  return 2 * SharedPages::room_for<std::uint32_t>(count + simd::kListPadding) +
+         SharedPages::room_for<std::uint32_t>(texels + 1 + kPadding) +
+         (wants_spots(count, faces) ? SharedPages::room_for<std::uint8_t>(spot_bytes(texels)) : 0) +
+         SharedPages::room_for<ShadowBlock>(blocks) + SharedPages::room_for<float>(blocks + kPadding) +
+         SharedPages::room_for<std::uint32_t>(count);
+}
+
+void ShadowPoints::sort(const simd::ListedPoints& list, const simd::PointTransform& transform,
+                        const std::uint32_t* own_faces, std::size_t faces, WorkingMemory& memory,
                         std::vector<std::uint32_t>& rest) {
-  raster_ = raster_for(wanted);
-  has_spots_ = faces > kFacesPerPointForSpots * wanted;
-  count_texels(from, rest);
-  fill_blocks(from);
+  raster_ = raster_for(list.count);
+  const std::size_t texels = texel_count();
+  begins_ = memory.take<std::uint32_t>(texels + 1 + kPadding);
+  std::fill_n(begins_, texels + 1 + kPadding, 0);
+  occupied_ = nullptr;
+  if (wants_spots(list.count, faces)) {
+    occupied_ = memory.take<std::uint8_t>(spot_bytes(texels));
+    std::fill_n(occupied_, spot_bytes(texels), std::uint8_t{0});
+  }
+  fill_blocks(project(list, transform, memory, rest), own_faces, memory);
   build_pyramid();
 }
 
-void ShadowPoints::count_texels(const simd::PointsToProject& from, std::vector<std::uint32_t>& rest) {
-  const std::size_t texels = texel_count();
-  begins_.assign(texels + 1 + kPadding, 0);
-  if (has_spots_) occupied_.assign(texels * simd::kSpotColumns * simd::kSpotRows / 8 + kPadding, 0);
-  std::uint32_t* begins = begins_.data();
-  count_ = simd::count_points(from, raster_, begins, has_spots_ ? occupied_.data() : nullptr, rest);
+simd::ProjectedPoints ShadowPoints::project(const simd::ListedPoints& list, const simd::PointTransform& transform,
+                                            WorkingMemory& memory, std::vector<std::uint32_t>& rest) {
+  auto* const texels = memory.take<std::uint32_t>(list.count + simd::kListPadding);
+  auto* const ranks = memory.take<std::uint32_t>(list.count + simd::kListPadding);
+  const auto points = simd::project_points(list, transform, raster_, texels, ranks, {begins_, occupied_}, rest);
   std::uint32_t sum = 0;
-  for (std::size_t t = 0; t <= texels; ++t) {
-    const std::uint32_t count = begins[t];
-    begins[t] = sum;
+  for (std::size_t t = 0; t <= texel_count(); ++t) {
+    const std::uint32_t count = begins_[t];
+    begins_[t] = sum;
     sum += count;
   }
+  return points;
 }
 
-void ShadowPoints::fill_blocks(const simd::PointsToProject& from) {
-  block_count_ = (count_ + ShadowBlock::kPoints - 1) / ShadowBlock::kPoints;
-  make_room(blocks_, block_count_);
-  make_room(farthest_of_block_, block_count_ + kPadding);
-  make_room(point_of_place_, count_);
+void ShadowPoints::fill_blocks(const simd::ProjectedPoints& points, const std::uint32_t* own_faces,
+                               WorkingMemory& memory) {
+  count_ = points.count;
+  block_count_ = blocks_for(count_);
+  blocks_ = memory.take<ShadowBlock>(block_count_);
+  farthest_of_block_ = memory.take<float>(block_count_ + kPadding);
+  point_of_place_ = memory.take<std::uint32_t>(count_);
   blocked_.assign(block_count_ + kPadding, 0);
 
-  auto* records = reinterpret_cast<std::byte*>(blocks_.data());
-  simd::place_points(from, raster_, begins_.data(), records, point_of_place_.data());
-  // Each texel's begin has moved to the next one's.
-  std::memmove(begins_.data() + 1, begins_.data(), texel_count() * sizeof(begins_[0]));
-  begins_[0] = 0;
-
+  auto* records = reinterpret_cast<std::byte*>(blocks_);
+  simd::place_points(points, own_faces, begins_, {records, point_of_place_});
   // The last block's spare places hold points that every face is behind, and are blocked from the start.
   for (std::size_t place = count_; place < block_count_ * ShadowBlock::kPoints; ++place) {
     const simd::ShadowRecord behind{0, 0, 0x1p100f, 0};
     std::memcpy(records + place * sizeof(behind), &behind, sizeof(behind));
     set_blocked(static_cast<std::uint32_t>(place));
   }
-  simd::finish_blocks(blocks_.data(), block_count_, farthest_of_block_.data());
+  simd::finish_blocks(blocks_, block_count_, farthest_of_block_);
 }
 
 void ShadowPoints::build_pyramid() {
@@ -107,8 +120,7 @@ void ShadowPoints::build_pyramid() {
   // A cell's row is a run of points; its blocks may hold neighbours too, which only lowers the least w.
   for (int y = 0; y < raster_.rows; ++y) {
     float* cell = cells_.data() + static_cast<std::size_t>(y / cell_rows) * static_cast<std::size_t>(columns);
-    const std::uint32_t* begins =
-        begins_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(raster_.columns);
+    const std::uint32_t* begins = begins_ + static_cast<std::size_t>(y) * static_cast<std::size_t>(raster_.columns);
     for (int x = 0; x < columns; ++x, ++cell) {
       const std::uint32_t begin = begins[x * cell_columns], end = begins[(x + 1) * cell_columns];
       for (std::uint32_t place = begin; place < end; place = (place / 16 + 1) * 16) {
@@ -141,12 +153,9 @@ void ShadowPoints::build_pyramid() {
 }
 
 simd::SortedPoints ShadowPoints::sorted() noexcept {
-  return {blocks_.data(), begins_.data(), farthest_of_block_.data(), blocked_.data(), raster_};
+  return {blocks_, begins_, farthest_of_block_, blocked_.data(), raster_};
 }
 
-std::size_t ShadowPoints::memory_bytes() const noexcept {
-  return bytes_of(point_of_place_) + bytes_of(begins_) + bytes_of(blocks_) + bytes_of(farthest_of_block_) +
-         bytes_of(blocked_) + bytes_of(cells_) + bytes_of(occupied_);
-}
+std::size_t ShadowPoints::memory_bytes() const noexcept { return bytes_of(blocked_) + bytes_of(cells_); }
 
 }  // namespace facemap

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "picture/working_memory.h"
 #include "simd/shadow_faces.h"
 #include "simd/shadow_points.h"
 #include "simd/shadow_tests.h"
@@ -10,17 +11,21 @@
 namespace facemap {
 
 /// The points of one raster, sorted by texel into blocks of sixteen, with what the faces run over needs to know of
-/// them. Memory is kept from one light to the next.
+/// them. They stand in the memory that they were sorted with.
 class ShadowPoints {
  public:
-  /// Sorts those of `from`, of which at most `wanted` are asked. Appends to `rest` those that have no place on the
-  /// raster. `faces`: how many are to be held against them.
-  void sort(const simd::PointsToProject& from, std::size_t wanted, std::size_t faces, std::vector<std::uint32_t>& rest);
+  /// What sorting `count` points takes, their list apart.
+  static std::size_t bytes_for(std::size_t count, std::size_t faces);
+
+  /// Sorts a list of points, whose memory is used up. Appends to `rest` the numbers of those that have no place on the
+  /// raster. `own_faces`: of all points. `faces`: how many are to be held against them.
+  void sort(const simd::ListedPoints& list, const simd::PointTransform& transform, const std::uint32_t* own_faces,
+            std::size_t faces, WorkingMemory& memory, std::vector<std::uint32_t>& rest);
 
   std::size_t count() const noexcept { return count_; }
   simd::ShadowRaster raster() const noexcept { return raster_; }
   /// As FacesToSift::occupied.
-  const std::uint8_t* occupied() const noexcept { return has_spots_ ? occupied_.data() : nullptr; }
+  const std::uint8_t* occupied() const noexcept { return occupied_; }
   const simd::FarthestPyramid& farthest() const noexcept { return pyramid_; }
   simd::SortedPoints sorted() noexcept;
 
@@ -41,21 +46,21 @@ class ShadowPoints {
   std::size_t texel_count() const {
     return static_cast<std::size_t>(raster_.columns) * static_cast<std::size_t>(raster_.rows);
   }
-  void count_texels(const simd::PointsToProject& from, std::vector<std::uint32_t>& rest);
-  void fill_blocks(const simd::PointsToProject& from);
+  simd::ProjectedPoints project(const simd::ListedPoints& list, const simd::PointTransform& transform,
+                                WorkingMemory& memory, std::vector<std::uint32_t>& rest);
+  void fill_blocks(const simd::ProjectedPoints& points, const std::uint32_t* own_faces, WorkingMemory& memory);
   void build_pyramid();
 
   simd::ShadowRaster raster_;
   std::size_t count_ = 0;
   std::size_t block_count_ = 0;
-  std::vector<std::uint32_t> point_of_place_;
-  std::vector<std::uint32_t> begins_;  ///< while sorting: the next place of each texel's next point
-  std::vector<simd::ShadowBlock> blocks_;
-  std::vector<float> farthest_of_block_;
+  std::uint32_t* point_of_place_ = nullptr;
+  std::uint32_t* begins_ = nullptr;  ///< of each texel its first place, and one more
+  simd::ShadowBlock* blocks_ = nullptr;
+  float* farthest_of_block_ = nullptr;
   std::vector<std::uint16_t> blocked_;
   std::vector<float> cells_;
-  bool has_spots_ = false;
-  std::vector<std::uint8_t> occupied_;
+  std::uint8_t* occupied_ = nullptr;
   simd::FarthestPyramid pyramid_{};
 };
 

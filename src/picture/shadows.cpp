@@ -7,6 +7,7 @@
 
 #include "math/dvector.h"
 #include "picture/gnomonic.h"
+#include "picture/point_list.h"
 #include "picture/point_projection.h"
 #include "picture/shadow_faces.h"
 #include "picture/shadow_points.h"
@@ -17,7 +18,8 @@
 namespace facemap {
 
 struct ShadowScratch::Parts {
-  std::vector<std::uint8_t> wanted;  ///< one a point: a bit for each side of the light that is to place it
+  WorkingMemory memory;
+  std::vector<std::uint8_t> sides;  ///< of a light among the points: one bit a point that is asked
   std::vector<std::uint32_t> rest;
   ShadowPoints points;
   ShadowFaces faces;
@@ -29,14 +31,11 @@ ShadowScratch::ShadowScratch(ShadowScratch&&) noexcept = default;
 ShadowScratch& ShadowScratch::operator=(ShadowScratch&&) noexcept = default;
 
 std::size_t ShadowScratch::memory_bytes() const noexcept {
-  return sizeof(Parts) + parts_->wanted.capacity() + parts_->rest.capacity() * sizeof(std::uint32_t) +
-         parts_->points.memory_bytes() + parts_->faces.memory_bytes();
+  return sizeof(Parts) + parts_->memory.memory_bytes() + parts_->sides.capacity() +
+         parts_->rest.capacity() * sizeof(std::uint32_t) + parts_->points.memory_bytes() + parts_->faces.memory_bytes();
 }
 
 namespace {
-
-// Kernels read this much past the end of `wanted`.
-constexpr std::size_t kPadding = 64;
 
 // The least error of a point's X, Y and Z, in units of 2^-24 Z, that the filter is told of: it costs nothing to speak
 // of. Points nearer to the light than the greatest allows are asked singly.
@@ -89,25 +88,34 @@ class LightPass {
         from_light_(points.origin - DVector(light)) {}
 
   void run() {
-    const simd::WantedPoints wanted = find_wanted();
-    if (wanted.count == 0) return;
+    if (points_.size() == 0) return;  // then there may be no masks either
+    const std::size_t most = mask_.most != 0 ? mask_.most : count_asked();
+    if (most == 0) return;
+    parts_.memory.start();
+    parts_.memory.require(bytes_of_list(most));
+    simd::ListedPoints list = list_in(parts_.memory, most);
+    const simd::WantedBits wanted{mask_.asked + mask_.bit / 8, mask_.stride,
+                                  static_cast<std::uint8_t>(1u << (mask_.bit % 8))};
+    const simd::ListedBox listed = simd::list_wanted(arrays_of(points_), wanted, list);
+    if (list.count == 0) return;
     parts_.rest.clear();
     if (scene_.mesh().positions.size() > kMostVertices) {
-      add_all_to_rest();
+      add_to_rest(list);
       return ask_rest();
     }
     const auto offset = [&](const std::int32_t* q) { return from_light_ + points_.step * DVector(q[0], q[1], q[2]); };
-    const OffsetBox box{offset(wanted.lower), offset(wanted.upper)};
+    const OffsetBox box{offset(listed.lower), offset(listed.upper)};
     size_ = 0;
     for (int k = 0; k < 3; ++k) {
-      size_ += std::fabs(from_light_[k]) + points_.step * std::max(std::fabs(static_cast<double>(wanted.lower[k])),
-                                                                   std::fabs(static_cast<double>(wanted.upper[k])));
+      size_ += std::fabs(from_light_[k]) + points_.step * std::max(std::fabs(static_cast<double>(listed.lower[k])),
+                                                                   std::fabs(static_cast<double>(listed.upper[k])));
     }
     if (auto frame = frame_towards(light_, box, PointProjection(points_, light_, size_).error)) {
       if (is_longer_along_v(scene_, *frame)) frame = turned(*frame);
-      run_frame(*frame, 1, wanted.count, nearest_of(*frame, box));
+      parts_.memory.require(ShadowPoints::bytes_for(most, scene_.face_count()));
+      run_frame(*frame, list, nearest_of(*frame, box));
     } else {
-      run_sides(box);
+      run_sides(box, list);
     }
     ask_rest();
   }
@@ -115,20 +123,10 @@ class LightPass {
   const Counters& counters() const { return counters_; }
 
  private:
-  // Sets wanted[] to 1 where the point's bit is set.
-  simd::WantedPoints find_wanted() {
-    const std::size_t count = points_.size(), stride = mask_.stride;
-    parts_.wanted.resize(count + kPadding);
-    const std::uint8_t* masks = mask_.asked + mask_.bit / 8;
-    std::uint8_t* wanted = parts_.wanted.data();
-    const int shift = mask_.bit % 8;
-    const auto bit = [=](std::uint8_t mask) { return static_cast<std::uint8_t>(mask >> shift & 1); };
-    if (stride == 1) {
-      for (std::size_t i = 0; i < count; ++i) wanted[i] = bit(masks[i]);
-    } else {
-      for (std::size_t i = 0; i < count; ++i) wanted[i] = bit(masks[i * stride]);
-    }
-    return simd::measure_wanted(points_.x.data(), points_.y.data(), points_.z.data(), wanted, count);
+  std::size_t count_asked() const {
+    std::size_t counts[8] = {};
+    simd::count_wanted(mask_.asked + mask_.bit / 8, mask_.stride, points_.size(), counts);
+    return counts[mask_.bit % 8];
   }
 
   double nearest_of(const simd::ShadowFrame& frame, const OffsetBox& box) const {
@@ -137,27 +135,41 @@ class LightPass {
     return nearest;
   }
 
-  void run_sides(const OffsetBox& box) {
+  void run_sides(const OffsetBox& box, const simd::ListedPoints& list) {
     double reach = 0;
     for (int k = 0; k < 3; ++k) reach = std::max({reach, std::fabs(box.lower[k]), std::fabs(box.upper[k])});
-    if (!(reach > 0)) return add_all_to_rest();
+    if (!(reach > 0)) return add_to_rest(list);
     simd::ShadowFrame frame = frame_of_side(light_, 4, reach);
     for (int k = 0; k < 3; ++k) frame.rows[k][k] = 1 / reach;  // plain offsets: the sides' rims are wider than rounding
-    const simd::SideCounts counts = simd::split_by_side(
-        PointProjection(points_, light_, size_).onto(frame, 1, parts_.wanted.data(), 1), parts_.wanted.data());
+    const simd::SideCounts counts = split(list, PointProjection(points_, light_, size_).through(frame, 1));
+    const std::size_t most = *std::max_element(counts.of, counts.of + simd::kSides);
     for (int side = 0; side < simd::kSides; ++side) {
       if (counts.of[side] == 0) continue;
-      run_frame(frame_of_side(light_, side, reach), static_cast<std::uint8_t>(1u << side), counts.of[side], 0);
+      parts_.memory.start();  // the list of all is not needed any more
+      parts_.memory.require(bytes_of_list(most));
+      simd::ListedPoints of_side = list_in(parts_.memory, counts.of[side]);
+      simd::list_wanted(arrays_of(points_), {parts_.sides.data(), 1, static_cast<std::uint8_t>(1u << side)}, of_side);
+      parts_.memory.require(ShadowPoints::bytes_for(most, scene_.face_count()));
+      run_frame(frame_of_side(light_, side, reach), of_side, 0);
     }
   }
 
+  // Sets the bit of its side for each point of the list.
+  simd::SideCounts split(const simd::ListedPoints& list, const simd::PointTransform& transform) {
+    auto* const bits = parts_.memory.take<std::uint8_t>(list.count + simd::kListPadding);
+    const simd::SideCounts counts = simd::split_by_side(list, transform, bits);
+    parts_.sides.assign(points_.size(), 0);
+    for (std::size_t k = 0; k < list.count; ++k) parts_.sides[list.numbers[k]] = bits[k];
+    return counts;
+  }
+
   // `nearest`: the least Z of the points, or 0: not known.
-  void run_frame(const simd::ShadowFrame& frame, std::uint8_t bit, std::size_t wanted, double nearest) {
+  void run_frame(const simd::ShadowFrame& frame, const simd::ListedPoints& list, double nearest) {
     const PointProjection projection(points_, light_, size_);
     // A little more than the nearest point needs, so that rounding does not leave it out.
     const double slack =
         std::clamp(projection.error_in(frame) / nearest * 0x1.01p24, kLeastSlack, simd::kShadowGreatestSlack);
-    parts_.points.sort(projection.onto(frame, slack, parts_.wanted.data(), bit), wanted, scene_.face_count(),
+    parts_.points.sort(list, projection.through(frame, slack), points_.faces.data(), scene_.face_count(), parts_.memory,
                        parts_.rest);
     if (parts_.points.count() > 0) {
       parts_.faces.run({scene_, light_, frame, slack, skip_entries_, some_, blocks_exactly_}, parts_.points, counters_);
@@ -175,10 +187,8 @@ class LightPass {
     }
   }
 
-  void add_all_to_rest() {
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      if (parts_.wanted[i] != 0) parts_.rest.push_back(static_cast<std::uint32_t>(i));
-    }
+  void add_to_rest(const simd::ListedPoints& list) {
+    parts_.rest.insert(parts_.rest.end(), list.numbers, list.numbers + list.count);
   }
 
   void ask_rest() {
@@ -201,6 +211,16 @@ class LightPass {
 };
 
 }  // namespace
+
+std::size_t most_asked(const std::vector<std::uint8_t>& asked, std::size_t stride) {
+  std::size_t most = 0;
+  for (std::size_t byte = 0; byte < stride; ++byte) {
+    std::size_t counts[8] = {};
+    simd::count_wanted(asked.data() + byte, stride, asked.size() / stride, counts);
+    most = std::max(most, *std::max_element(counts, counts + 8));
+  }
+  return most;
+}
 
 void clear_blocked(const Scene& scene, const Vector& light, const AskedPoints& points, const MaskBit& mask,
                    const std::uint8_t* skip_entries, const BlocksExactly& blocks_exactly, ShadowScratch& scratch,

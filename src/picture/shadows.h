@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 #include "picture/asked_points.h"
 
@@ -30,6 +31,9 @@ class ShadowScratch {
   std::unique_ptr<Parts> parts_;
 };
 
+/// How many points ask about the light that most of them ask about. `asked`: stride bytes a point, one bit a light.
+std::size_t most_asked(const std::vector<std::uint8_t>& asked, std::size_t stride);
+
 /// Whether face `face`, whose side towards the light is `side`, stands strictly between the light and point `point`:
 /// the exact answer, asked where the float32 filter leaves it open.
 using BlocksExactly = std::function<bool(std::size_t point, std::uint32_t face, int side)>;
@@ -41,6 +45,7 @@ struct MaskBit {
   std::size_t stride;         ///< bytes a point
   int bit;
   std::mutex* writing = nullptr;  ///< held while `lit` is written, if other lights write their bits at the same time
+  std::size_t most = 0;           ///< no more points are asked than this, which other lights need too; 0: not known
 
   /// To be held while is_lit and clear are called.
   std::unique_lock<std::mutex> hold() const {
@@ -60,7 +65,7 @@ struct MaskBit {
 /// `light` and the point. The transposed way: points are sorted into a raster about the light, then the faces run over
 /// them; no list is made. `skip_entries` (one byte a face, or null): where it is not 0 the face may be left out if it
 /// is turned towards the light (entry faces of closed parts). `some`, or null: no other faces stand between the light
-/// and any of the points. Exact, whatever the order.
+/// and any of the points. Exact, whatever the order. Fewer than 2^31 points: kernels gather by signed 32-bit numbers.
 void clear_blocked(const Scene& scene, const Vector& light, const AskedPoints& points, const MaskBit& mask,
                    const std::uint8_t* skip_entries, const BlocksExactly& blocks_exactly, ShadowScratch& scratch,
                    Counters* counters = nullptr, const std::vector<std::uint32_t>* some = nullptr);

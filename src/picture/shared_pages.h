@@ -26,6 +26,9 @@ class SharedPages {
   /// Takes all back, whose arrays must not be used any more. What stood there stays.
   void take_back() { taken_ = 0; }
 
+  std::size_t size() const noexcept { return size_; }
+  bool is_free() const noexcept { return taken_ == 0; }
+
   /// Gives the pages that are not taken back to the system.
   void give_back_rest() {
     pages_.give_back_from(taken_);

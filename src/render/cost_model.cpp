@@ -13,10 +13,11 @@ constexpr double kTransposedFace = 20;      // a face that runs over the points
 constexpr double kTransposedQuery = 8;      // a point that is sorted
 constexpr double kListQuery = 120;          // a point asked of lists
 constexpr double kListFace = 300;           // a face put into lists
-constexpr double kBoundsFace = 300;         // a face that takes part in making a light's bounds
+constexpr double kBoundsFace = 450;         // a face that takes part in making a light's bounds
 constexpr double kBoundedShare = 0.6;       // of the transposed way's time, when bounds are there
-constexpr double kBytesOfBounds = 1 << 20;  // of one light
-constexpr double kListBytesPerFace = 100;   // of the lists and planes of one light
+constexpr double kBytesOfBounds = 1 << 20;  // of one light, and those a face
+constexpr double kBoundsBytesPerFace = 26;
+constexpr double kListBytesPerFace = 100;  // of the lists and planes of one light
 
 // Share of a picture's samples that ask a light: those that hit a face which the light faces.
 constexpr double kAsked = 0.3;
@@ -48,7 +49,8 @@ namespace {
 bool keeps_bounds(const Renderer::Options& options, const PictureWork& work) {
   using LightMaps = Renderer::LightMaps;
   if (options.light_maps != LightMaps::Auto) return options.light_maps == LightMaps::Keep;
-  const double bytes = static_cast<double>(work.lights) * kBytesOfBounds;
+  const double bytes = static_cast<double>(work.lights) *
+                       std::max(kBytesOfBounds, kBoundsBytesPerFace * static_cast<double>(work.faces));
   if (work.map_memory != 0 && bytes > static_cast<double>(work.map_memory)) return false;
   return work.has_bounds || work.lost_to_bounds >= estimate_cost(work).make_bounds;
 }

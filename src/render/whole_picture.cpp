@@ -28,8 +28,9 @@ std::vector<Vector> positions_of(const std::vector<Light>& lights) {
 }
 
 // Bytes that a sample may take while its band is worked on: the camera's raster, its point, and its place about a light
-// in each thread. For sizing bands by Options::map_memory; no bound.
-constexpr std::size_t kBytesPerSample = 40, kBytesPerSampleAndThread = 36;
+// in each thread. There it is listed (16), has a texel and a rank (8), a record (16) and its number (4), and the raster
+// has up to one texel (4) and that one's spots (4) for it. For sizing bands by Options::map_memory; no bound.
+constexpr std::size_t kBytesPerSample = 40, kBytesPerSampleAndThread = 52;
 constexpr std::size_t kBytesPerFaceAndThread = 12;
 
 // Without a budget a band has at most this many samples: a picture of 2048 x 2048 is one.

@@ -13,10 +13,26 @@ namespace facemap::simd::HWY_NAMESPACE {
 
 using DBytes = hn::Rebind<std::uint8_t, DU>;
 
+// Puts where the open lanes lie at the `at`th place.
+HWY_INLINE void store_places(const OpenPlaces& places, std::size_t at, hn::Vec<DF> u, hn::Vec<DF> v, hn::Vec<DF> number,
+                             hn::Mask<DU> is_on, hn::Mask<DU> is_open) {
+  const DU du;
+  const DI di;
+  const auto last = hn::Set(di, kTexelSpots - 1), size = hn::Set(di, places.size);
+  const auto column = texel_of(u, kTexelSpots * places.size), row = texel_of(v, kTexelSpots * places.size);
+  const auto texel =
+      hn::Add(hn::Mul(hn::ShiftRight<kTexelSpotsLog2>(row), size), hn::ShiftRight<kTexelSpotsLog2>(column));
+  const auto spot = hn::Add(hn::ShiftLeft<kTexelSpotsLog2>(hn::And(row, last)), hn::And(column, last));
+  const auto depth = hn::Or(hn::ShiftLeft<16>(spot), hn::ConvertTo(di, number));
+  hn::CompressStore(hn::IfThenElse(is_on, hn::BitCast(du, texel), hn::Set(du, OpenPlaces::kNone)), is_open, du,
+                    places.texels + at);
+  hn::CompressStore(hn::BitCast(du, depth), is_open, du, places.depths + at);
+}
+
 // Decides points i.. of a run that begins at `first`; `wanted` are those of the run.
 HWY_INLINE void decide_lanes(const PointsToProject& from, const TexelBounds& bounds, const Run& run,
                              const std::uint8_t* wanted, std::size_t first, std::size_t i, std::uint8_t* dark,
-                             std::uint32_t* open, PointCounts& counts) {
+                             std::uint32_t* open, const OpenPlaces& places, PointCounts& counts) {
   const DF d;
   const DU du;
   const DI di;
@@ -44,11 +60,12 @@ HWY_INLINE void decide_lanes(const PointsToProject& from, const TexelBounds& bou
   const auto is_open = hn::AndNot(hn::Or(is_dark, is_lit), is_wanted);
   if (hn::AllFalse(du, is_open)) return;
   const auto numbers = hn::Add(hn::Iota(du, 0), hn::Set(du, static_cast<std::uint32_t>(first + i)));
+  if (places.texels != nullptr) store_places(places, counts.open, u, v, number, is_on, is_open);
   counts.open += hn::CompressStore(numbers, is_open, du, open + counts.open);
 }
 
 PointCounts decide_points(const PointsToProject& from, const TexelBounds& bounds, std::size_t first, std::size_t last,
-                          std::uint8_t* dark, std::uint32_t* open) {
+                          std::uint8_t* dark, std::uint32_t* open, const OpenPlaces& places) {
   PointCounts counts;
   Run run;
   for (; first < last; first += kRun) {
@@ -62,7 +79,7 @@ PointCounts decide_points(const PointsToProject& from, const TexelBounds& bounds
     if (!is_any_wanted(wanted, from.bit)) continue;
     transform(from, first, run);
     for (std::size_t i = 0; i < kRun; i += hn::Lanes(DF())) {
-      decide_lanes(from, bounds, run, wanted, first, i, dark, open, counts);
+      decide_lanes(from, bounds, run, wanted, first, i, dark, open, places, counts);
     }
   }
   return counts;
@@ -75,8 +92,8 @@ HWY_AFTER_NAMESPACE();
 namespace facemap::simd {
 
 PointCounts decide_points(const PointsToProject& from, const TexelBounds& bounds, std::size_t first, std::size_t last,
-                          std::uint8_t* dark, std::uint32_t* open) {
-  return FACEMAP_DISPATCH(decide_points)(from, bounds, first, last, dark, open);
+                          std::uint8_t* dark, std::uint32_t* open, const OpenPlaces& places) {
+  return FACEMAP_DISPATCH(decide_points)(from, bounds, first, last, dark, open, places);
 }
 
 }  // namespace facemap::simd

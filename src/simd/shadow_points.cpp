@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/shadow_points.cpp"
@@ -14,162 +13,139 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace facemap::simd::HWY_NAMESPACE {
-using DBytes = hn::Rebind<std::uint8_t, DU>;
+constexpr std::size_t kLanes = hn::MaxLanes(DF());
 
-// ---- which, and where
-
-struct Bounds {
-  hn::Vec<DI> lower[3], upper[3];
-};
-
-HWY_INLINE std::size_t widen(Bounds& bounds, const std::int32_t* const* coordinates, const std::uint8_t* wanted,
-                             std::size_t first) {
-  const DI di;
-  const DU du;
-  const auto bytes = hn::PromoteTo(du, hn::LoadU(DBytes(), wanted + first));
-  const auto is_wanted = hn::RebindMask(di, hn::Ne(bytes, hn::Zero(du)));
-  if (hn::AllFalse(di, is_wanted)) return 0;
-  for (int k = 0; k < 3; ++k) {
-    const auto x = hn::LoadU(di, coordinates[k] + first);
-    bounds.lower[k] = hn::IfThenElse(is_wanted, hn::Min(bounds.lower[k], x), bounds.lower[k]);
-    bounds.upper[k] = hn::IfThenElse(is_wanted, hn::Max(bounds.upper[k], x), bounds.upper[k]);
-  }
-  return hn::CountTrue(di, is_wanted);
-}
-
-WantedPoints measure_wanted(const std::int32_t* x, const std::int32_t* y, const std::int32_t* z,
-                            const std::uint8_t* wanted, std::size_t count) {
-  const DI di;
-  const std::size_t lanes = hn::Lanes(di), whole = count / lanes * lanes;
-  Bounds bounds;
-  for (int k = 0; k < 3; ++k) {
-    bounds.lower[k] = hn::Set(di, std::numeric_limits<std::int32_t>::max());
-    bounds.upper[k] = hn::Set(di, std::numeric_limits<std::int32_t>::min());
-  }
-  WantedPoints measured{};
-  const std::int32_t* const coordinates[3] = {x, y, z};
-  for (std::size_t i = 0; i < whole; i += lanes) measured.count += widen(bounds, coordinates, wanted, i);
-  std::int32_t last[3][16] = {};
-  std::uint8_t last_wanted[64] = {};
-  const std::int32_t* const last_coordinates[3] = {last[0], last[1], last[2]};
-  for (int k = 0; k < 3; ++k) std::copy(coordinates[k] + whole, coordinates[k] + count, last[k]);
-  std::copy(wanted + whole, wanted + count, last_wanted);
-  measured.count += widen(bounds, last_coordinates, last_wanted, 0);
-  for (int k = 0; k < 3; ++k) {
-    measured.lower[k] = hn::GetLane(hn::MinOfLanes(di, bounds.lower[k]));
-    measured.upper[k] = hn::GetLane(hn::MaxOfLanes(di, bounds.upper[k]));
-  }
-  return measured;
-}
-
-// ---- onto the raster
-
-// A vector of points on the raster.
-struct Placed {
-  hn::Vec<DF> u, v, w;
-  hn::Vec<DU> texel;
-  hn::Mask<DU> is_on, is_rest;
-  unsigned on;  // one bit a lane
-};
-
-// False if none of them is asked about.
-HWY_INLINE bool place_lanes(const PointsToProject& from, const ShadowRaster& raster, const Run& run, std::size_t first,
-                            std::size_t i, Placed& p) {
-  const DF d;
-  const DU du;
-  const auto bytes = hn::PromoteTo(du, hn::LoadU(DBytes(), from.wanted + first + i));
-  const auto number = hn::Add(hn::Iota(du, 0), hn::Set(du, static_cast<std::uint32_t>(first + i)));
-  const auto is_within = hn::Lt(number, hn::Set(du, static_cast<std::uint32_t>(from.count)));
-  const auto is_wanted = hn::And(hn::TestBit(bytes, hn::Set(du, from.bit)), is_within);
-  if (hn::AllFalse(du, is_wanted)) return false;
-
-  const auto one = hn::Set(d, 1.0f), Z = hn::Load(d, run.Z + i);
-  p.w = hn::Div(one, Z);
-  p.u = hn::Mul(hn::Load(d, run.X + i), p.w);
-  p.v = hn::Mul(hn::Load(d, run.Y + i), p.w);
-  const auto is_inside = hn::And(hn::Le(hn::Max(hn::Abs(p.u), hn::Abs(p.v)), one), hn::Ge(Z, hn::Set(d, from.nearest)));
-  p.is_on = hn::And(is_wanted, hn::RebindMask(du, is_inside));
-  p.is_rest = hn::AndNot(hn::RebindMask(du, is_inside), is_wanted);
-  const auto column = texel_of(p.u, raster.columns), row = texel_of(p.v, raster.rows);
-  p.texel = hn::BitCast(du, hn::Add(hn::Mul(row, hn::Set(DI(), raster.columns)), column));
-  std::uint8_t bits[8] = {};
-  hn::StoreMaskBits(du, p.is_on, bits);
-  p.on = bits[0] | static_cast<unsigned>(bits[1]) << 8;
-  return true;
-}
-
-HWY_INLINE void mark_spots(const Placed& p, const ShadowRaster& raster, std::uint8_t* occupied) {
-  const auto column = texel_of(p.u, raster.columns * kSpotColumns), row = texel_of(p.v, raster.rows * kSpotRows);
-  alignas(64) std::int32_t spots[16];
+HWY_INLINE void mark_spots(hn::Vec<DF> u, hn::Vec<DF> v, const ShadowRaster& raster, std::size_t count,
+                           std::uint8_t* occupied) {
+  const auto column = texel_of(u, raster.columns * kSpotColumns), row = texel_of(v, raster.rows * kSpotRows);
+  alignas(64) std::int32_t spots[kLanes] = {};
   hn::Store(hn::Add(hn::Mul(row, hn::Set(DI(), raster.columns * kSpotColumns)), column), DI(), spots);
-  for (unsigned on = p.on; on != 0; on &= on - 1) {
-    const auto spot = static_cast<std::uint32_t>(spots[__builtin_ctz(on)]);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto spot = static_cast<std::uint32_t>(spots[k]);
     occupied[spot / 8] = static_cast<std::uint8_t>(occupied[spot / 8] | 1u << (spot % 8));
   }
 }
 
-std::size_t count_points(const PointsToProject& from, const ShadowRaster& raster, std::uint32_t* counts,
-                         std::uint8_t* occupied, std::vector<std::uint32_t>& rest) {
-  const DU du;
-  const std::size_t lanes = hn::Lanes(du);
-  std::size_t count = 0;
-  Run run;
-  Placed p;
-  for (std::size_t first = 0; first < from.count; first += kRun) {
-    if (!is_any_wanted(from.wanted + first, from.bit)) continue;
-    transform(from, first, run);
-    for (std::size_t i = 0; i < kRun && first + i < from.count; i += lanes) {
-      if (!place_lanes(from, raster, run, first, i, p)) continue;
-      if (!hn::AllFalse(du, p.is_rest)) {
-        const auto number = hn::Add(hn::Iota(du, 0), hn::Set(du, static_cast<std::uint32_t>(first + i)));
-        const std::size_t before = rest.size();
-        rest.resize(before + 16);
-        rest.resize(before + hn::CompressStore(number, p.is_rest, du, rest.data() + before));
-      }
-      if (occupied != nullptr) mark_spots(p, raster, occupied);
-      alignas(64) std::uint32_t texels[16];
-      hn::Store(p.texel, du, texels);
-      count += static_cast<unsigned>(__builtin_popcount(p.on));
-      if (hn::AllTrue(du, p.is_on)) {
-        for (std::size_t k = 0; k < lanes; ++k) ++counts[texels[k]];
-      } else {
-        for (unsigned on = p.on; on != 0; on &= on - 1) ++counts[texels[__builtin_ctz(on)]];
-      }
-    }
-  }
-  return count;
+HWY_INLINE void append_rest(hn::Vec<DU> number, hn::Mask<DU> is_rest, std::vector<std::uint32_t>& rest) {
+  const std::size_t before = rest.size();
+  rest.resize(before + 16);
+  rest.resize(before + hn::CompressStore(number, is_rest, DU(), rest.data() + before));
 }
 
-void place_points(const PointsToProject& from, const ShadowRaster& raster, std::uint32_t* next, std::byte* records,
-                  std::uint32_t* point_of_place) {
+// A vector of points, those on the raster first.
+struct Placed {
+  hn::Vec<DF> u, v, w;
+  hn::Vec<DU> number;
+  std::size_t count;
+};
+
+// `left`: how many of the lanes are points.
+HWY_INLINE Placed place_lanes(const Run& run, std::size_t i, std::size_t left, const std::uint32_t* numbers,
+                              float nearest, std::vector<std::uint32_t>& rest) {
   const DF d;
   const DU du;
-  const std::size_t lanes = hn::Lanes(d);
-  Run run;
+  const auto one = hn::Set(d, 1.0f), Z = hn::Load(d, run.Z + i);
   Placed p;
-  for (std::size_t first = 0; first < from.count; first += kRun) {
-    if (!is_any_wanted(from.wanted + first, from.bit)) continue;
-    transform(from, first, run);
-    for (std::size_t i = 0; i < kRun && first + i < from.count; i += lanes) {
-      if (!place_lanes(from, raster, run, first, i, p)) continue;
-      alignas(64) ShadowRecord lane_records[16];
-      alignas(64) std::uint32_t texels[16];
-      hn::StoreInterleaved4(p.u, p.v, p.w, hn::BitCast(d, hn::Load(du, run.own_face + i)), d, &lane_records[0].u);
-      hn::Store(p.texel, du, texels);
-      const auto number = static_cast<std::uint32_t>(first + i);
-      if (hn::AllTrue(du, p.is_on)) {
-        for (std::uint32_t k = 0; k < lanes; ++k) {
-          const std::uint32_t place = next[texels[k]]++;
-          std::memcpy(records + std::size_t{place} * sizeof(ShadowRecord), &lane_records[k], sizeof(ShadowRecord));
-          point_of_place[place] = number + k;
-        }
-        continue;
+  p.w = hn::Div(one, Z);
+  p.u = hn::Mul(hn::Load(d, run.X + i), p.w);
+  p.v = hn::Mul(hn::Load(d, run.Y + i), p.w);
+  p.number = hn::LoadU(du, numbers);
+  p.count = kLanes;
+  const auto is_inside = hn::And(hn::Le(hn::Max(hn::Abs(p.u), hn::Abs(p.v)), one), hn::Ge(Z, hn::Set(d, nearest)));
+  const auto is_listed = hn::Lt(hn::Iota(du, 0), hn::Set(du, static_cast<std::uint32_t>(left)));
+  const auto is_on = hn::And(is_listed, hn::RebindMask(du, is_inside));
+  if (hn::AllTrue(du, is_on)) return p;
+  const auto is_rest = hn::AndNot(hn::RebindMask(du, is_inside), is_listed);
+  if (!hn::AllFalse(du, is_rest)) append_rest(p.number, is_rest, rest);
+  p.u = hn::Compress(p.u, hn::RebindMask(d, is_on));
+  p.v = hn::Compress(p.v, hn::RebindMask(d, is_on));
+  p.w = hn::Compress(p.w, hn::RebindMask(d, is_on));
+  p.number = hn::Compress(p.number, is_on);
+  p.count = hn::CountTrue(du, is_on);
+  return p;
+}
+
+ProjectedPoints project_points(const ListedPoints& from, const PointTransform& by, const ShadowRaster& on_raster,
+                               std::uint32_t* texels, std::uint32_t* ranks, const TexelCounts& to_count,
+                               std::vector<std::uint32_t>& rest) {
+  const DU du;
+  const DI di;
+  const ListedPoints list = from;  // nothing that is stored changes the copies
+  const ShadowRaster raster = on_raster;
+  const TexelCounts counts = to_count;
+  const float nearest = by.nearest;
+  ProjectedPoints to{list.x, list.y, list.z, list.numbers, texels, ranks, 0};
+  Run run;
+  for (std::size_t first = 0; first < list.count; first += kRun) {
+    transform(by, list.x + first, list.y + first, list.z + first, run);
+    const std::size_t left = std::min(kRun, list.count - first);
+    for (std::size_t i = 0; i < left; i += kLanes) {
+      const Placed p = place_lanes(run, i, left - i, list.numbers + first + i, nearest, rest);
+      const auto column = texel_of(p.u, raster.columns), row = texel_of(p.v, raster.rows);
+      const auto texel = hn::BitCast(du, hn::Add(hn::Mul(row, hn::Set(DI(), raster.columns)), column));
+      hn::StoreU(hn::BitCast(di, p.u), di, to.u + to.count);
+      hn::StoreU(hn::BitCast(di, p.v), di, to.v + to.count);
+      hn::StoreU(hn::BitCast(di, p.w), di, to.w + to.count);
+      hn::StoreU(p.number, du, to.numbers + to.count);
+      hn::StoreU(texel, du, texels + to.count);
+      if (counts.occupied != nullptr) mark_spots(p.u, p.v, raster, p.count, counts.occupied);
+      alignas(64) std::uint32_t at[kLanes];
+      hn::Store(texel, du, at);
+      std::uint32_t* const rank = ranks + to.count;
+      if (p.count == kLanes) {
+        for (std::size_t k = 0; k < kLanes; ++k) rank[k] = counts.of[at[k]]++;
+      } else {
+        for (std::size_t k = 0; k < p.count; ++k) rank[k] = counts.of[at[k]]++;
       }
-      for (unsigned on = p.on; on != 0; on &= on - 1) {
-        const auto k = static_cast<std::uint32_t>(__builtin_ctz(on));
-        const std::uint32_t place = next[texels[k]]++;
-        std::memcpy(records + std::size_t{place} * sizeof(ShadowRecord), &lane_records[k], sizeof(ShadowRecord));
-        point_of_place[place] = number + k;
+      to.count += p.count;
+    }
+  }
+  // Vectors past the end read points that exist.
+  std::fill_n(to.numbers + to.count, kLanes, 0);
+  std::fill_n(to.texels + to.count, kLanes, 0);
+  return to;
+}
+
+HWY_INLINE hn::Vec<DF> float_at(const std::int32_t* bits) { return hn::BitCast(DF(), hn::LoadU(DI(), bits)); }
+
+// Places of kRun points from number `first` on, which are fetched: they are all over more memory than is near.
+HWY_INLINE void find_places(const ProjectedPoints& points, std::size_t first, const std::uint32_t* begins,
+                            const PlacedPoints& to, std::uint32_t* places) {
+  const DU du;
+  const DI di;
+  for (std::size_t i = 0; i < kRun && first + i < points.count; i += kLanes) {
+    const auto texel = hn::BitCast(di, hn::LoadU(du, points.texels + first + i));
+    const auto rank = hn::LoadU(du, points.ranks + first + i);
+    hn::Store(hn::Add(hn::GatherIndex(du, begins, texel), rank), du, places + i);
+  }
+  for (std::size_t i = 0; i < kRun && first + i < points.count; ++i) {
+    __builtin_prefetch(to.records + std::size_t{places[i]} * sizeof(ShadowRecord), 1);
+    __builtin_prefetch(to.point_of_place + places[i], 1);
+  }
+}
+
+void place_points(const ProjectedPoints& from, const std::uint32_t* own_faces, const std::uint32_t* begins,
+                  const PlacedPoints& placed) {
+  const DF d;
+  const DU du;
+  const DI di;
+  const ProjectedPoints points = from;  // nothing that is stored changes the copies
+  const PlacedPoints to = placed;
+  alignas(64) ShadowRecord records[kLanes];
+  alignas(64) std::uint32_t places[2][kRun];
+  find_places(points, 0, begins, to, places[0]);
+  for (std::size_t first = 0; first < points.count; first += kRun) {
+    const std::uint32_t* const now = places[first / kRun % 2];
+    find_places(points, first + kRun, begins, to, places[(first / kRun + 1) % 2]);
+    for (std::size_t i = 0; i < kRun && first + i < points.count; i += kLanes) {
+      const std::size_t at = first + i, lanes = std::min(kLanes, points.count - at);
+      const auto number = hn::BitCast(di, hn::LoadU(du, points.numbers + at));
+      const auto own_face = hn::BitCast(d, hn::GatherIndex(du, own_faces, number));
+      hn::StoreInterleaved4(float_at(points.u + at), float_at(points.v + at), float_at(points.w + at), own_face, d,
+                            &records[0].u);
+      for (std::size_t k = 0; k < lanes; ++k) {
+        std::memcpy(to.records + std::size_t{now[i + k]} * sizeof(ShadowRecord), &records[k], sizeof(ShadowRecord));
+        to.point_of_place[now[i + k]] = points.numbers[at + k];
       }
     }
   }
@@ -202,19 +178,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace facemap::simd {
 
-std::size_t count_points(const PointsToProject& from, const ShadowRaster& raster, std::uint32_t* counts,
-                         std::uint8_t* occupied, std::vector<std::uint32_t>& rest) {
-  return FACEMAP_DISPATCH(count_points)(from, raster, counts, occupied, rest);
+ProjectedPoints project_points(const ListedPoints& list, const PointTransform& transform, const ShadowRaster& raster,
+                               std::uint32_t* texels, std::uint32_t* ranks, const TexelCounts& counts,
+                               std::vector<std::uint32_t>& rest) {
+  return FACEMAP_DISPATCH(project_points)(list, transform, raster, texels, ranks, counts, rest);
 }
 
-void place_points(const PointsToProject& from, const ShadowRaster& raster, std::uint32_t* next, std::byte* records,
-                  std::uint32_t* point_of_place) {
-  FACEMAP_DISPATCH(place_points)(from, raster, next, records, point_of_place);
-}
-
-WantedPoints measure_wanted(const std::int32_t* x, const std::int32_t* y, const std::int32_t* z,
-                            const std::uint8_t* wanted, std::size_t count) {
-  return FACEMAP_DISPATCH(measure_wanted)(x, y, z, wanted, count);
+void place_points(const ProjectedPoints& points, const std::uint32_t* own_faces, const std::uint32_t* begins,
+                  const PlacedPoints& to) {
+  FACEMAP_DISPATCH(place_points)(points, own_faces, begins, to);
 }
 
 void finish_blocks(ShadowBlock* blocks, std::size_t count, float* farthest) {

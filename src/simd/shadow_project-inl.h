@@ -31,7 +31,6 @@ constexpr std::size_t kRun = 64;
 
 struct Run {
   alignas(64) float X[kRun], Y[kRun], Z[kRun];
-  alignas(64) std::uint32_t own_face[kRun];
 };
 
 // One coordinate of a row: ((m0 x + m1 y) + m2 z) + offset.
@@ -41,17 +40,28 @@ HWY_INLINE hn::Vec<DD> row_of(const double* row, double offset, hn::Vec<DD> x, h
   return hn::Add(hn::Add(xy, hn::Mul(hn::Set(d, row[2]), z)), hn::Set(d, offset));
 }
 
-HWY_INLINE void transform(const PointsToProject& from, std::size_t first, Run& run) {
-  const std::size_t count = std::min(kRun, from.count - first);
-  const std::int32_t *px = from.x + first, *py = from.y + first, *pz = from.z + first;
-  alignas(64) std::int32_t last_run[3][kRun];
-  std::copy_n(from.own_faces + first, count, run.own_face);
-  if (count < kRun) {
-    std::memset(last_run, 0, sizeof(last_run));
-    px = std::copy_n(px, count, last_run[0]) - count;
-    py = std::copy_n(py, count, last_run[1]) - count;
-    pz = std::copy_n(pz, count, last_run[2]) - count;
-  }
+// Of kRun points.
+struct RunPoints {
+  const std::int32_t *x, *y, *z;
+  alignas(64) std::int32_t copy[3][kRun];  // where they do not stand side by side
+};
+
+// Points first.. of `count`; zeros after the last.
+HWY_INLINE void set_run(const std::int32_t* x, const std::int32_t* y, const std::int32_t* z, std::size_t first,
+                        std::size_t count, RunPoints& run) {
+  run.x = x + first;
+  run.y = y + first;
+  run.z = z + first;
+  if (count - first >= kRun) return;
+  std::memset(run.copy, 0, sizeof(run.copy));
+  run.x = std::copy_n(run.x, count - first, run.copy[0]) - (count - first);
+  run.y = std::copy_n(run.y, count - first, run.copy[1]) - (count - first);
+  run.z = std::copy_n(run.z, count - first, run.copy[2]) - (count - first);
+}
+
+// kRun points that stand side by side.
+HWY_INLINE void transform(const PointTransform& by, const std::int32_t* px, const std::int32_t* py,
+                          const std::int32_t* pz, Run& run) {
   const DD d;
   const DHalfF half;
   const DHalfI half_int;
@@ -59,10 +69,16 @@ HWY_INLINE void transform(const PointsToProject& from, std::size_t first, Run& r
     const auto x = hn::PromoteTo(d, hn::LoadU(half_int, px + i));
     const auto y = hn::PromoteTo(d, hn::LoadU(half_int, py + i));
     const auto z = hn::PromoteTo(d, hn::LoadU(half_int, pz + i));
-    hn::Store(hn::DemoteTo(half, row_of(from.matrix[0], from.offset[0], x, y, z)), half, run.X + i);
-    hn::Store(hn::DemoteTo(half, row_of(from.matrix[1], from.offset[1], x, y, z)), half, run.Y + i);
-    hn::Store(hn::DemoteTo(half, row_of(from.matrix[2], from.offset[2], x, y, z)), half, run.Z + i);
+    hn::Store(hn::DemoteTo(half, row_of(by.matrix[0], by.offset[0], x, y, z)), half, run.X + i);
+    hn::Store(hn::DemoteTo(half, row_of(by.matrix[1], by.offset[1], x, y, z)), half, run.Y + i);
+    hn::Store(hn::DemoteTo(half, row_of(by.matrix[2], by.offset[2], x, y, z)), half, run.Z + i);
   }
+}
+
+HWY_INLINE void transform(const PointsToProject& from, std::size_t first, Run& run) {
+  RunPoints points;
+  set_run(from.x, from.y, from.z, first, from.count, points);
+  transform(from, points.x, points.y, points.z, run);
 }
 
 // Column or row of a coordinate: monotone in it, whatever the rounding. The spans of faces use the same steps.

@@ -19,31 +19,30 @@ HWY_INLINE hn::Vec<DU> bit_of(hn::Vec<DF> component, int axis) {
   return hn::IfThenElse(is_against, hn::Set(du, 2u << (2 * axis)), hn::Set(du, 1u << (2 * axis)));
 }
 
-HWY_INLINE void split_lanes(const Run& run, std::size_t i, std::uint8_t* wanted, SideCounts& counts) {
+// Bits of lanes from `count` on are not set.
+HWY_INLINE void split_lanes(const Run& run, std::size_t i, std::size_t count, std::uint8_t* out, SideCounts& counts) {
   const DF d;
   const DU du;
   const hn::Rebind<std::uint8_t, DU> db;
-  const auto is_wanted = hn::TestBit(hn::PromoteTo(du, hn::LoadU(db, wanted + i)), hn::Set(du, 1));
-  if (hn::AllFalse(du, is_wanted)) return;
   const auto X = hn::Load(d, run.X + i), Y = hn::Load(d, run.Y + i), Z = hn::Load(d, run.Z + i);
   const auto x = hn::Abs(X), y = hn::Abs(Y), z = hn::Abs(Z);
   const auto xy = hn::IfThenElse(hn::RebindMask(du, hn::Gt(y, x)), bit_of(Y, 1), bit_of(X, 0));
   const auto all = hn::IfThenElse(hn::RebindMask(du, hn::Gt(z, hn::Max(x, y))), bit_of(Z, 2), xy);
-  const auto bits = hn::IfThenElseZero(is_wanted, all);
-  hn::StoreU(hn::DemoteTo(db, hn::BitCast(DI(), bits)), db, wanted + i);
+  const auto is_listed = hn::Lt(hn::Iota(du, 0), hn::Set(du, static_cast<std::uint32_t>(count)));
+  const auto bits = hn::IfThenElseZero(is_listed, all);
+  hn::StoreU(hn::DemoteTo(db, hn::BitCast(DI(), bits)), db, out);
   for (unsigned side = 0; side < kSides; ++side) {
     counts.of[side] += hn::CountTrue(du, hn::Eq(bits, hn::Set(du, 1u << side)));
   }
 }
 
-SideCounts split_by_side(const PointsToProject& from, std::uint8_t* wanted) {
+SideCounts split_by_side(const ListedPoints& list, const PointTransform& by, std::uint8_t* bits) {
   SideCounts counts;
   Run run;
-  for (std::size_t first = 0; first < from.count; first += kRun) {
-    if (!is_any_wanted(wanted + first, 1)) continue;
-    transform(from, first, run);
-    for (std::size_t i = 0; i < kRun && first + i < from.count; i += hn::Lanes(DF())) {
-      split_lanes(run, i, wanted + first, counts);
+  for (std::size_t first = 0; first < list.count; first += kRun) {
+    transform(by, list.x + first, list.y + first, list.z + first, run);
+    for (std::size_t i = 0; i < kRun && first + i < list.count; i += hn::Lanes(DF())) {
+      split_lanes(run, i, list.count - (first + i), bits + first + i, counts);
     }
   }
   return counts;
@@ -55,8 +54,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace facemap::simd {
 
-SideCounts split_by_side(const PointsToProject& from, std::uint8_t* wanted) {
-  return FACEMAP_DISPATCH(split_by_side)(from, wanted);
+SideCounts split_by_side(const ListedPoints& list, const PointTransform& transform, std::uint8_t* bits) {
+  return FACEMAP_DISPATCH(split_by_side)(list, transform, bits);
 }
 
 }  // namespace facemap::simd

@@ -15,8 +15,8 @@ struct SideCounts {
   std::size_t of[kSides] = {};
 };
 
-/// For each point with the first bit of wanted[i] set: bit `side` takes its place, the side that has the greatest
-/// component of (X, Y, Z), as float32 has them. `wanted` is that of `from`.
-SideCounts split_by_side(const PointsToProject& from, std::uint8_t* wanted);
+/// Sets bit `side` of bits[k] alone, the side that has the greatest component of (X, Y, Z) of the list's point k, as
+/// float32 has them. `bits` has room like the list.
+SideCounts split_by_side(const ListedPoints& list, const PointTransform& transform, std::uint8_t* bits);
 
 }  // namespace facemap::simd

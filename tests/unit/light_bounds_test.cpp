@@ -12,6 +12,7 @@
 #include "picture/decide_points.h"
 #include "picture/face_texels.h"
 #include "picture/gnomonic.h"
+#include "picture/kept_bounds.h"
 #include "scene/closed_parts.h"
 #include "simd/shadow_faces.h"
 #include "simd/target.h"
@@ -73,7 +74,7 @@ Decisions decide(const LightBounds& bounds, const Vector& light, const AskedPoin
   const std::vector<std::uint8_t> before = masks;
   DecidedPoints work;
   Counters counters;
-  decide_points(bounds, light, points, {before.data(), masks.data(), stride, bit}, work, counters);
+  decide_points(bounds, light, points, {before.data(), masks.data(), stride, bit}, work, counters, false);
   EXPECT_EQ(counters.by_float, points.size() - work.numbers.size());
   Decisions decisions;
   decisions.open = work.numbers;
@@ -151,6 +152,69 @@ TEST(LightBounds, KnowThatASheetCastsAShadow) {
   EXPECT_TRUE(decisions.open.empty()) << "point " << decisions.open[0];
 }
 
+// The bounds' decisions and the answers of the lists, one byte a point: 1 where it is lit. Points that neither places
+// are left lit; `listed` counts those that asked lists.
+std::vector<std::uint8_t> ask_all(const Scene& scene, const LightBounds& bounds, const Vector& light,
+                                  const AskedPoints& questions, const std::vector<Vector>& points,
+                                  std::vector<std::uint32_t>& listed, Counters& counters) {
+  std::vector<std::uint8_t> lit(points.size(), 1);
+  const std::vector<std::uint8_t> before = lit;
+  const MaskBit mask{before.data(), lit.data(), 1, 0};
+  DecidedPoints work;
+  decide_points(bounds, light, questions, mask, work, counters);
+  listed = work.listed.numbers;
+  if (listed.empty()) return lit;
+  const BlocksExactly blocks_exactly = [&](std::size_t point, std::uint32_t face, int face_side) {
+    return blocks(triangle_of(scene, face), face_side, light, GivenPoint{points[point]});
+  };
+  ask_lists(scene, light, *bounds.lists(), questions, mask, blocks_exactly, work.listed, work.dark, counters);
+  return lit;
+}
+
+// Points that the bounds leave open, asked of the lists, on faces, next to them and at edges and corners.
+TEST(LightBounds, ListsEqualTheExactAnswer) {
+  constexpr std::uint64_t kSeed = 0x5eed007b;
+  std::printf("seed 0x%llx\n", (unsigned long long)kSeed);
+  Random random(kSeed);
+  std::size_t listed = 0, blocked = 0, halved = 0;
+  Counters counters;
+  for (int round = 0; round < 250; ++round) {
+    const auto kind = static_cast<Kind>(random.below(test_scenes::kKindCount - 1));  // not Wild
+    const TestScene test = test_scenes::make_scene(kind, random.between(40, 900), random);
+    const Scene scene(test.mesh);
+    const Vector light(DVector(test.centre) +
+                       test.radius * std::exp2(random.between(1.5, 6.0)) * normalized(DVector(random.direction())));
+    const auto bounds = LightBounds::find(scene, light, nullptr, find_face_neighbours(scene));
+    if (!bounds || bounds->lists() == nullptr) continue;
+    halved += bounds->lists()->size() != bounds->texels().size;
+    std::vector<Vector> points;
+    for (int i = 0; i < 300; ++i) points.push_back(make_point(test, random));
+    for (int i = 0; i < 30; ++i) {
+      const auto face = static_cast<std::size_t>(random.below(static_cast<int>(test.mesh.face_count())));
+      const DVector a(test.mesh.vertex(face, 0)), b(test.mesh.vertex(face, 1));
+      const DVector at = random.chance(0.3) ? a : (a + b) / 2.0;
+      points.push_back(Vector(DVector(light) + random.between(0.9, 1.3) * (at - DVector(light))));
+      points.push_back(test.mesh.vertex(face, 2));
+    }
+    const AskedPoints questions = asked(test, points);
+    std::vector<std::uint32_t> numbers;
+    const std::vector<std::uint8_t> lit = ask_all(scene, *bounds, light, questions, points, numbers, counters);
+    for (const std::uint32_t i : numbers) {
+      ++listed;
+      blocked += lit[i] == 0;
+      ASSERT_EQ(lit[i] == 0, is_blocked(scene, light, points[i]))
+          << test.name << " round " << round << " point " << points[i].x << ' ' << points[i].y << ' ' << points[i].z;
+    }
+  }
+  std::printf("%zu points listed, %zu blocked; %llu decided by float32, %llu by doubles, %llu exactly; %zu halved\n",
+              listed, blocked, (unsigned long long)counters.by_float, (unsigned long long)counters.by_double,
+              (unsigned long long)counters.by_exact, halved);
+  EXPECT_GT(listed, 10000u);
+  EXPECT_GT(blocked, 1000u);
+  EXPECT_GT(halved, 5u);
+  EXPECT_GT(counters.by_double, 100u);
+}
+
 TEST(LightBounds, AreTheSameOnEveryTarget) {
   Random random(0x5eed0076);
   const TestScene test = test_scenes::make_scene(Kind::Patch, 300, random);
@@ -159,14 +223,25 @@ TEST(LightBounds, AreTheSameOnEveryTarget) {
   std::vector<Vector> points;
   for (int i = 0; i < 3001; ++i) points.push_back(make_point(test, random));
   std::vector<Decisions> all;
+  std::vector<std::uint64_t> by_float, by_exact;
   for (const simd::Target target : simd::supported_targets()) {
     simd::set_active_target(target);
     const auto bounds = LightBounds::find(scene, light, nullptr, find_face_neighbours(scene));
     ASSERT_TRUE(bounds);
-    all.push_back(decide(*bounds, light, asked(test, points), 3, 1));
+    ASSERT_TRUE(bounds->lists());
+    const AskedPoints questions = asked(test, points);
+    all.push_back(decide(*bounds, light, questions, 3, 1));
+    Counters counters;
+    std::vector<std::uint32_t> numbers;
+    all.back().lit = ask_all(scene, *bounds, light, questions, points, numbers, counters);
+    EXPECT_FALSE(numbers.empty());
+    by_float.push_back(counters.by_float);
+    by_exact.push_back(counters.by_exact);
   }
   simd::set_active_target(simd::supported_targets().back());
   EXPECT_FALSE(all[0].open.empty());
+  EXPECT_EQ(by_float, std::vector<std::uint64_t>(all.size(), by_float[0]));
+  EXPECT_EQ(by_exact, std::vector<std::uint64_t>(all.size(), by_exact[0]));
   for (const Decisions& decisions : all) {
     EXPECT_EQ(decisions.open, all[0].open);
     EXPECT_EQ(decisions.lit, all[0].lit);
@@ -192,7 +267,7 @@ TEST(LightBounds, LeaveOutEntryFacesOfClosedPartsAlone) {
     const std::vector<std::uint8_t> skips =
         closed.skippable_entries(scene, std::vector<std::uint8_t>(closed.closed_count(), 1), light);
     if (skips.empty()) continue;
-    const auto bounds = LightBounds::find(scene, light, skips.data(), find_face_neighbours(scene));
+    const auto bounds = LightBounds::find(scene, light, skips.data(), find_face_neighbours(scene), false);
     if (!bounds) continue;
     std::vector<Vector> points;
     for (int i = 0; i < 200; ++i) points.push_back(make_point(test, random));
@@ -226,6 +301,21 @@ TEST(LightBounds, LeaveOutEntryFacesOfClosedPartsAlone) {
   EXPECT_GT(lit, 1000u);
   EXPECT_GT(dark, 1000u);
   EXPECT_GT(listed, 1000u);
+}
+
+// Else all points that are left open would ask all faces.
+TEST(KeptBounds, HaveListsOnlyWhereTheyCanBeAsked) {
+  Random random(0x5eed007c);
+  const TestScene test = test_scenes::make_scene(Kind::Patch, 300, random);
+  for (const float factor : {1.0f, 0x1p40f}) {
+    const Scene scene(test_scenes::scaled(test.mesh, factor));
+    const Vector light(double{factor} * (DVector(test.centre) + DVector(1, 3, 2) * test.radius));
+    KeptBounds kept;
+    kept.make(scene, {light}, nullptr, {}, Executor(1));
+    const LightBounds* bounds = kept.of(0, {});
+    ASSERT_NE(bounds, nullptr);
+    EXPECT_EQ(bounds->lists() != nullptr, factor == 1);
+  }
 }
 
 TEST(LightBounds, AreNotMadeForALightAmongTheFaces) {

@@ -258,6 +258,18 @@ TEST(Shadows, PointsWhoseBitIsNotSetStayAsTheyAre) {
   EXPECT_GT(scratch.memory_bytes(), 0u);
 }
 
+TEST(Shadows, NoPointsAskNothing) {
+  Mesh mesh;
+  test_scenes::add_triangle(mesh, {-1, 0, -1}, {1, 0, -1}, {0, 0, 1});
+  const Scene scene(mesh);
+  ShadowScratch scratch;
+  Counters counters;
+  const auto never = [](std::size_t, std::uint32_t, int) { return false; };
+  // There is no memory to point into, not even to its second byte.
+  clear_blocked(scene, {0, 1, 0}, AskedPoints(), {nullptr, nullptr, 2, 9}, nullptr, never, scratch, &counters);
+  EXPECT_EQ(counters.by_float, 0u);
+}
+
 TEST(Shadows, OwnFaceNeverBlocks) {
   Mesh mesh;
   test_scenes::add_triangle(mesh, {-1, 0, -1}, {1, 0, -1}, {0, 0, 1});
