@@ -12,6 +12,10 @@
 namespace facemap {
 namespace {
 
+// Of points that ask about a light: up to so many a face lists are quicker (measured at 2 and at 8), and up to so many
+// in all there is nothing to gain.
+constexpr std::size_t kMostPointsPerFace = 4, kFewPoints = std::size_t{1} << 14;
+
 template <class Vector>
 std::size_t bytes_of(const Vector& v) {
   return v.capacity() * sizeof(v[0]);
@@ -42,6 +46,10 @@ bool can_ask_lists(const Scene& scene, const Vector& light, double size) {
   return from_light >= simd::kLeastListedSize && from_light + scene.bounding_radius() <= simd::kGreatestListedSize &&
          size <= simd::kGreatestListedSize && scene.face_count() <= simd::kMostListed &&
          scene.mesh().positions.size() <= simd::kMostListed;
+}
+
+bool are_lists_quicker(std::size_t points, std::size_t faces) {
+  return points <= std::max(kFewPoints, kMostPointsPerFace * faces);
 }
 
 std::size_t ask_lists(const Scene& scene, const Vector& light, const TexelLists& lists, const AskedPoints& points,

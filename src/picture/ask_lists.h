@@ -27,6 +27,10 @@ struct PlacedPoints {
 /// components greater than `size`.
 bool can_ask_lists(const Scene& scene, const Vector& light, double size);
 
+/// Whether lists are the quicker way for so many points that ask about a light: faces that run over sorted points take
+/// the less time a point the more points there are, lists always the same.
+bool are_lists_quicker(std::size_t points, std::size_t faces);
+
 /// Clears the bit in mask.lit of each listed point that a face of its texel's list blocks. `dark`: one byte a point, 0
 /// for the listed ones. Returns how many points and faces were held against each other.
 std::size_t ask_lists(const Scene& scene, const Vector& light, const TexelLists& lists, const AskedPoints& points,

@@ -63,6 +63,8 @@ void clear_blocked(const LightWork& work, const SampleGrid& grid, const MovedPoi
   if (points.size() == 0) return;
   std::vector<std::uint8_t> outside_camera;
   if (work.closed != nullptr) outside_camera = work.closed->outside(scene, grid.frame.position());
+  const bool is_for_lists = work.bounds != nullptr && work.bounds->are_made() &&
+                            are_lists_quicker(most_asked(seen.masks, seen.stride), scene.kept_faces().size());
 
   for_each_light(
       work, seen.stride, seen.masks, counters, [&](std::size_t l, const MaskBit& mask, int worker, Counters& own) {
@@ -100,7 +102,7 @@ void clear_blocked(const LightWork& work, const SampleGrid& grid, const MovedPoi
         const LightBounds* bounds = work.bounds != nullptr ? work.bounds->of(l, outside_camera) : nullptr;
         if (bounds != nullptr) {
           DecidedPoints& decided = work.bounds->work(worker);
-          const bool asks_lists = can_ask_lists(scene, light, size_of_offsets(points, light));
+          const bool asks_lists = is_for_lists && can_ask_lists(scene, light, size_of_offsets(points, light));
           const DecidedCount count = decide_points(*bounds, light, points, mask, decided, own, asks_lists);
           std::size_t held = 0;
           if (!decided.listed.numbers.empty()) {

@@ -34,6 +34,8 @@ inline constexpr float kListedUnderflow = 0x1p-100f;
 
 HWY_BEFORE_NAMESPACE();
 namespace facemap::simd::HWY_NAMESPACE {
+// Of this file alone: the same names stand for other lanes elsewhere.
+namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using DF = hn::CappedTag<float, 16>;
@@ -184,6 +186,8 @@ HWY_INLINE void prefetch_lists(const FaceLists& lists, const PointsToList& point
     __builtin_prefetch(lists.spots + begin);
   }
 }
+
+}  // namespace
 
 std::uint64_t ask_lists(const FaceLists& lists, const PointsToList& points, std::uint8_t* dark,
                         std::vector<OpenPair>& open) {

@@ -37,6 +37,8 @@ inline constexpr double kGreatestBound = 0x1p90;
 
 HWY_BEFORE_NAMESPACE();
 namespace facemap::simd::HWY_NAMESPACE {
+// Of this file alone: the same names stand for other lanes elsewhere.
+namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using DD = hn::CappedTag<double, 8>;
@@ -148,6 +150,8 @@ HWY_INLINE void set_up_some(const ShadowFrame& frame, const ShadowCorners& corne
   hn::Store(hn::IfThenElseZero(is_sure, sign), d, signs);
   for (std::size_t k = 0; k < hn::Lanes(d); ++k) sides[i + k] = static_cast<std::int8_t>(signs[k]);
 }
+
+}  // namespace
 
 void set_up_planes(const ShadowFrame& frame, const ShadowCorners* corners, std::size_t groups, double slack,
                    ShadowPlanes* planes, std::int8_t* sides) {
