@@ -8,6 +8,7 @@
 #include <hwy/highway.h>
 
 #include "simd/dispatch.h"
+#include "simd/vectors-inl.h"
 
 #ifndef FACEMAP_SIMD_LIST_PLANES_ONCE
 #define FACEMAP_SIMD_LIST_PLANES_ONCE
@@ -35,35 +36,19 @@ inline constexpr double kUseless = 0x1p70;
 
 HWY_BEFORE_NAMESPACE();
 namespace facemap::simd::HWY_NAMESPACE {
+// Of this file alone: the same names stand for other lanes elsewhere.
+namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Tag = hn::CappedTag<double, 8>;
 using FloatTag = hn::Rebind<float, Tag>;
 using BitsTag = hn::Rebind<std::uint64_t, Tag>;
 using V = hn::Vec<Tag>;
-
-struct Vec3 {
-  V x, y, z;
-};
-
-HWY_INLINE Vec3 operator-(const Vec3& a, const Vec3& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-
-HWY_INLINE Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
-}
-
-HWY_INLINE V dot(const Vec3& a, const Vec3& b) {
-  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-
-HWY_INLINE V size_of(const Vec3& a) { return hn::Add(hn::Add(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z)); }
+using Vector = Vector3<V>;
 
 HWY_INLINE V times(V v, double factor) { return hn::Mul(v, hn::Set(Tag(), factor)); }
 
-HWY_INLINE Vec3 corner(const SetupCorners& corners, int k, std::size_t i) {
+HWY_INLINE Vector corner(const SetupCorners& corners, int k, std::size_t i) {
   const Tag tag;
   const FloatTag half;
   return {hn::PromoteTo(tag, hn::Load(half, corners.of[k][0] + i)),
@@ -88,7 +73,7 @@ HWY_INLINE void store_above(V value, float* to) {
 
 // Stores a plane scaled to a length in [1, 2) and returns the bound of its error, relative to the direction's length.
 // `error`: of the doubles.
-HWY_INLINE V store_plane(const Vec3& m, V length, V error, int plane, std::size_t i, SetupPlanes& planes) {
+HWY_INLINE V store_plane(const Vector& m, V length, V error, int plane, std::size_t i, SetupPlanes& planes) {
   const V factor = inverse_power_of_two(length);
   store(hn::Mul(m.x, factor), planes.x[plane] + i);
   store(hn::Mul(m.y, factor), planes.y[plane] + i);
@@ -96,33 +81,33 @@ HWY_INLINE V store_plane(const Vec3& m, V length, V error, int plane, std::size_
   return hn::Mul(hn::Add(times(length, kDotRoundings), times(error, 2)), factor);
 }
 
-HWY_INLINE V length_of(const Vec3& a) { return hn::Sqrt(dot(a, a)); }
+HWY_INLINE V length_of(const Vector& a) { return hn::Sqrt(dot(a, a)); }
 
 HWY_INLINE void set_up_some(const SetupCorners& corners, const float origin[3], double scale, std::size_t i,
                             SetupPlanes& planes) {
   const Tag tag;
-  const Vec3 O{hn::Set(tag, origin[0]), hn::Set(tag, origin[1]), hn::Set(tag, origin[2])};
-  const Vec3 a = corner(corners, 0, i), b = corner(corners, 1, i), c = corner(corners, 2, i);
-  const Vec3 from_O[3] = {a - O, b - O, c - O}, along[3] = {b - a, c - b, a - c};
+  const Vector O{hn::Set(tag, origin[0]), hn::Set(tag, origin[1]), hn::Set(tag, origin[2])};
+  const Vector a = corner(corners, 0, i), b = corner(corners, 1, i), c = corner(corners, 2, i);
+  const Vector from_O[3] = {a - O, b - O, c - O}, along[3] = {b - a, c - b, a - c};
 
   // Of a face's edges each is taken from its own two corners, so that what is near one of them stays sharp.
   V error = hn::Zero(tag), nearest = hn::Set(tag, 0x1p600), longest = hn::Zero(tag);
   for (int k = 0; k < 3; ++k) {
-    const Vec3 m = cross(from_O[k], along[k]);
-    const V m_error = times(hn::Mul(size_of(from_O[k]), size_of(along[k])), kCrossError);
+    const Vector m = cross(from_O[k], along[k]);
+    const V m_error = times(hn::Mul(sum_of_sizes(from_O[k]), sum_of_sizes(along[k])), kCrossError);
     error = hn::Max(error, store_plane(m, length_of(m), m_error, k, i, planes));
     nearest = hn::Min(nearest, dot(from_O[k], from_O[k]));
     longest = hn::Max(longest, dot(along[k], along[k]));
   }
 
-  const Vec3 ac = c - a, n = cross(along[0], ac);
-  const V sizes = hn::Mul(size_of(along[0]), size_of(ac)), n_length = length_of(n);
+  const Vector ac = c - a, n = cross(along[0], ac);
+  const V sizes = hn::Mul(sum_of_sizes(along[0]), sum_of_sizes(ac)), n_length = length_of(n);
   const V n_error = times(sizes, kCrossError);
   error = hn::Max(error, store_plane(n, n_length, n_error, 3, i, planes));
   store_above(error, planes.error + i);
 
   const V determinant = dot(n, from_O[0]);
-  const V determinant_error = times(hn::Mul(sizes, size_of(from_O[0])), kDeterminantError);
+  const V determinant_error = times(hn::Mul(sizes, sum_of_sizes(from_O[0])), kDeterminantError);
   const V distance = hn::Abs(determinant);
   const V map_units = times(inverse_power_of_two(n_length), scale);
   const V offset = hn::Mul(determinant, map_units), most = hn::Set(tag, kUseless);
@@ -141,6 +126,8 @@ HWY_INLINE void set_up_some(const SetupCorners& corners, const float origin[3], 
   hn::Store(hn::IfThenElseZero(hn::Gt(distance, determinant_error), sign), tag, sides);
   for (std::size_t k = 0; k < hn::Lanes(tag); ++k) planes.side[i + k] = static_cast<std::int8_t>(sides[k]);
 }
+
+}  // namespace
 
 void set_up_list_planes(const SetupCorners& corners, const float origin[3], double scale, SetupPlanes& planes) {
   for (std::size_t i = 0; i < kSetupFaces; i += hn::Lanes(Tag())) set_up_some(corners, origin, scale, i, planes);

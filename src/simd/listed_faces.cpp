@@ -8,6 +8,7 @@
 #include <hwy/highway.h>
 
 #include "simd/dispatch.h"
+#include "simd/vectors-inl.h"
 
 #ifndef FACEMAP_SIMD_LISTED_FACES_ONCE
 #define FACEMAP_SIMD_LISTED_FACES_ONCE
@@ -44,6 +45,7 @@ using DI = hn::RebindToSigned<DF>;
 using DSpots = hn::Rebind<std::uint16_t, DU>;
 using VF = hn::Vec<DF>;
 using VU = hn::Vec<DU>;
+using Vector = Vector3<VF>;
 
 constexpr std::size_t kLanes = hn::MaxLanes(DF());
 
@@ -58,24 +60,6 @@ struct PairQueue {
   std::size_t count = 0;
 };
 
-struct Vector {
-  VF x, y, z;
-};
-
-HWY_INLINE Vector operator-(const Vector& a, const Vector& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-
-HWY_INLINE Vector cross(const Vector& a, const Vector& b) {
-  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
-}
-
-HWY_INLINE VF dot(const Vector& a, const Vector& b) {
-  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-
-HWY_INLINE VF sum_of_sizes(const Vector& a) { return hn::Add(hn::Add(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z)); }
 HWY_INLINE VF greatest_size(const Vector& a) { return hn::Max(hn::Max(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z)); }
 
 HWY_INLINE hn::Vec<DI> triple(hn::Vec<DI> i) { return hn::Add(hn::Add(i, i), i); }

@@ -8,6 +8,7 @@
 #include <hwy/highway.h>
 
 #include "simd/dispatch.h"
+#include "simd/vectors-inl.h"
 
 // Let P = (X, Y, Z) be a face's first corner, Q1 and Q2 its edges from there, all rotated; m0 = P x Q1 and m2 = Q2 x P
 // the planes of two edges, n = Q1 x Q2 its own, m1 = n - m0 - m2 that of the third; D = n . P = s |D|. A ray (u, v, 1)
@@ -31,6 +32,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::ScalableTag<double>;
 using V = hn::Vec<D>;
 using M = hn::Mask<D>;
+using Vector = Vector3<V>;
 using Floats = hn::Rebind<float, D>;
 using Integers = hn::Rebind<std::int32_t, D>;
 
@@ -43,27 +45,12 @@ constexpr double kSharpDeterminant = 0x1p20;
 constexpr double kLargestDepth = 0x1p60;  // coefficients of w; times |u| and |v| below 2^20
 constexpr double kLargestFloat = 0x1p100;
 
-struct Vec {
-  V x, y, z;
-};
-
 HWY_INLINE V constant(double x) { return hn::Set(D(), x); }
-HWY_INLINE Vec operator-(const Vec& a, const Vec& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-HWY_INLINE V dot(const Vec& a, const Vec& b) {
-  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-HWY_INLINE Vec cross(const Vec& a, const Vec& b) {
-  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
-}
-HWY_INLINE V sum_of_sizes(const Vec& a) { return hn::Add(hn::Add(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z)); }
 
-HWY_INLINE Vec rotated(const PlaneFrame& f, const Vec& a) {
-  const Vec rows[3] = {{constant(f.rows[0][0]), constant(f.rows[0][1]), constant(f.rows[0][2])},
-                       {constant(f.rows[1][0]), constant(f.rows[1][1]), constant(f.rows[1][2])},
-                       {constant(f.rows[2][0]), constant(f.rows[2][1]), constant(f.rows[2][2])}};
+HWY_INLINE Vector rotated(const PlaneFrame& f, const Vector& a) {
+  const Vector rows[3] = {{constant(f.rows[0][0]), constant(f.rows[0][1]), constant(f.rows[0][2])},
+                          {constant(f.rows[1][0]), constant(f.rows[1][1]), constant(f.rows[1][2])},
+                          {constant(f.rows[2][0]), constant(f.rows[2][1]), constant(f.rows[2][2])}};
   return {dot(rows[0], a), dot(rows[1], a), dot(rows[2], a)};
 }
 
@@ -92,8 +79,8 @@ HWY_INLINE void gather(const FaceSource& source, const std::uint32_t* faces, std
 }
 
 struct Planes {
-  Vec edge[3];  // normalised by their bounds
-  Vec w;
+  Vector edge[3];  // normalised by their bounds
+  Vector w;
   V sharp;
   M is_unsure;
 };
@@ -104,19 +91,19 @@ HWY_INLINE V bounded(V x) { return hn::Max(hn::Min(x, constant(kLargestFloat)), 
 HWY_INLINE Planes planes_of(const PlaneFrame& f, const Corners& corners, std::size_t i, V width, V height, V side) {
   const D d;
   const Floats floats;
-  Vec corner[3];
+  Vector corner[3];
   for (int k = 0; k < 3; ++k) {
     corner[k] = {hn::PromoteTo(d, hn::Load(floats, corners.of[k][0] + i)),
                  hn::PromoteTo(d, hn::Load(floats, corners.of[k][1] + i)),
                  hn::PromoteTo(d, hn::Load(floats, corners.of[k][2] + i))};
   }
-  const Vec origin = {constant(f.origin[0]), constant(f.origin[1]), constant(f.origin[2])};
-  const Vec offset = corner[0] - origin, first = corner[1] - corner[0], second = corner[2] - corner[0];
+  const Vector origin = {constant(f.origin[0]), constant(f.origin[1]), constant(f.origin[2])};
+  const Vector offset = corner[0] - origin, first = corner[1] - corner[0], second = corner[2] - corner[0];
   const V r = hn::Mul(sum_of_sizes(offset), constant(f.unit));
   const V q = hn::Mul(hn::Max(sum_of_sizes(first), sum_of_sizes(second)), constant(f.unit));
 
-  const Vec P = rotated(f, offset), Q1 = rotated(f, first), Q2 = rotated(f, second);
-  const Vec n = cross(Q1, Q2), m0 = cross(P, Q1), m2 = cross(Q2, P), m1 = (n - m0) - m2;
+  const Vector P = rotated(f, offset), Q1 = rotated(f, first), Q2 = rotated(f, second);
+  const Vector n = cross(Q1, Q2), m0 = cross(P, Q1), m2 = cross(Q2, P), m1 = (n - m0) - m2;
   const V determinant = dot(n, P), size = hn::Abs(determinant);
   const V qq = hn::Mul(q, q), error = hn::Mul(constant(f.determinant_error), hn::Mul(qq, r));
   const M is_sure = hn::Gt(size, error);
@@ -127,7 +114,7 @@ HWY_INLINE Planes planes_of(const PlaneFrame& f, const Corners& corners, std::si
   planes.is_unsure = hn::Not(hn::Or(is_sure, is_known));
   const V rest = hn::Mul(constant(f.value_error), hn::Mul(q, hn::Add(hn::Add(r, r), q)));
   const V shift = constant(f.shift * kShiftSlack);
-  const Vec edges[3] = {m0, m1, m2};
+  const Vector edges[3] = {m0, m1, m2};
   for (int k = 0; k < 3; ++k) {
     const V A = hn::Abs(edges[k].x), B = hn::Abs(edges[k].y);
     const V local = hn::Mul(constant(kEdgeRoundings), hn::Add(hn::Mul(A, width), hn::Mul(B, height)));
@@ -143,7 +130,7 @@ HWY_INLINE Planes planes_of(const PlaneFrame& f, const Corners& corners, std::si
 
   // Where D itself is not sharp, or w out of range, depths are not used.
   const V inverse = hn::Div(constant(1), determinant);
-  const Vec w = {hn::Mul(n.x, inverse), hn::Mul(n.y, inverse), hn::Mul(n.z, inverse)};
+  const Vector w = {hn::Mul(n.x, inverse), hn::Mul(n.y, inverse), hn::Mul(n.z, inverse)};
   const M has_depth = hn::And(hn::And(hn::Gt(size, hn::Mul(error, constant(kSharpDeterminant))), hn::Not(is_known)),
                               hn::Lt(sum_of_sizes(w), constant(kLargestDepth)));
   planes.w = {hn::IfThenElseZero(has_depth, w.x), hn::IfThenElseZero(has_depth, w.y),
@@ -158,7 +145,7 @@ HWY_INLINE Planes planes_of(const PlaneFrame& f, const Corners& corners, std::si
   return planes;
 }
 
-HWY_INLINE V value_at(const Vec& plane, V u, V v) {
+HWY_INLINE V value_at(const Vector& plane, V u, V v) {
   return hn::Add(hn::Add(hn::Mul(plane.x, u), hn::Mul(plane.y, v)), plane.z);
 }
 
@@ -236,7 +223,7 @@ void set_up_large(const FaceSource& source, const PlaneFrame& frame, const std::
     const Planes planes =
         planes_of(frame, corners, i, constant(kLargeRun), constant(kBlockSide), hn::Load(d, side + i));
     for (int k = 0; k < 4; ++k) {
-      const Vec& plane = k < 3 ? planes.edge[k] : planes.w;
+      const Vector& plane = k < 3 ? planes.edge[k] : planes.w;
       hn::Store(plane.x, d, values[3 * k] + i);
       hn::Store(plane.y, d, values[3 * k + 1] + i);
       hn::Store(plane.z, d, values[3 * k + 2] + i);

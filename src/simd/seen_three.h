@@ -12,6 +12,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "simd/vectors-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace facemap::simd::HWY_NAMESPACE {
 namespace {
@@ -34,9 +36,7 @@ HWY_INLINE void store_integers(V v, std::int32_t* p) { hn::StoreU(hn::DemoteTo(I
 // std::max(a, b), NaN and zeros included.
 HWY_INLINE V standard_max(V a, V b) { return hn::IfThenElse(hn::Lt(a, b), b, a); }
 
-struct Three {
-  V x, y, z;
-};
+using Three = Vector3<V>;
 
 HWY_INLINE Three all(double x) { return {constant(x), constant(x), constant(x)}; }
 HWY_INLINE Three point(const float p[3]) { return {constant(p[0]), constant(p[1]), constant(p[2])}; }
@@ -66,21 +66,11 @@ HWY_INLINE Three gather(const double (*rows)[kCount], hn::Vec<Places> places) {
 HWY_INLINE Three plus(const Three& a, const Three& b) {
   return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
 }
-HWY_INLINE Three minus(const Three& a, const Three& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
+HWY_INLINE Three minus(const Three& a, const Three& b) { return a - b; }
 HWY_INLINE Three times(const Three& a, V s) { return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)}; }
 HWY_INLINE Three magnitude(const Three& a) { return {hn::Abs(a.x), hn::Abs(a.y), hn::Abs(a.z)}; }
 HWY_INLINE Three chosen(Mask m, const Three& yes, const Three& no) {
   return {hn::IfThenElse(m, yes.x, no.x), hn::IfThenElse(m, yes.y, no.y), hn::IfThenElse(m, yes.z, no.z)};
-}
-
-HWY_INLINE V dot(const Three& a, const Three& b) {
-  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-HWY_INLINE Three cross(const Three& a, const Three& b) {
-  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
 }
 
 // The largest magnitude, as std::max gives it.

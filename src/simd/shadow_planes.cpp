@@ -6,6 +6,7 @@
 #include <hwy/highway.h>
 
 #include "simd/dispatch.h"
+#include "simd/vectors-inl.h"
 
 #ifndef FACEMAP_SIMD_SHADOW_PLANES_ONCE
 #define FACEMAP_SIMD_SHADOW_PLANES_ONCE
@@ -44,25 +45,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using DD = hn::CappedTag<double, 8>;
 using DHalf = hn::Rebind<float, DD>;
 using VD = hn::Vec<DD>;
-
-struct Vector {
-  VD x, y, z;
-};
-
-HWY_INLINE Vector operator-(const Vector& a, const Vector& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-
-HWY_INLINE Vector cross(const Vector& a, const Vector& b) {
-  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
-}
-
-HWY_INLINE VD dot(const Vector& a, const Vector& b) {
-  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-
-HWY_INLINE VD sum_of_sizes(const Vector& a) { return hn::Add(hn::Add(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z)); }
+using Vector = Vector3<VD>;
 
 HWY_INLINE Vector transformed(const ShadowFrame& frame, const Vector& p) {
   const DD d;
