@@ -7,6 +7,7 @@
 #include "map/face_planes.h"
 #include "math/dvector.h"
 #include "math/exact_sign.h"
+#include "picture/bytes_of.h"
 #include "picture/near_face.h"
 
 namespace facemap {
@@ -15,11 +16,6 @@ namespace {
 // Of points that ask about a light: up to so many a face lists are quicker (measured at 2 and at 8), and up to so many
 // in all there is nothing to gain.
 constexpr std::size_t kMostPointsPerFace = 4, kFewPoints = std::size_t{1} << 14;
-
-template <class Vector>
-std::size_t bytes_of(const Vector& v) {
-  return v.capacity() * sizeof(v[0]);
-}
 
 // What float32 leaves open doubles decide, and exact arithmetic the rest.
 bool is_blocked_by(const Scene& scene, const Vector& light, const AskedPoints& points, const simd::OpenPair& pair,

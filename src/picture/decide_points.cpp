@@ -4,6 +4,7 @@
 #include <mutex>
 
 #include "math/dvector.h"
+#include "picture/bytes_of.h"
 #include "picture/point_projection.h"
 
 namespace facemap {
@@ -14,11 +15,6 @@ constexpr std::size_t kPadding = 64;
 
 // So many points are looked at before those that are left open are copied: they are still near in memory.
 constexpr std::size_t kSlice = 1 << 13;
-
-template <class Vector>
-std::size_t bytes_of(const Vector& v) {
-  return v.capacity() * sizeof(v[0]);
-}
 
 // One byte a point.
 const std::uint8_t* asked_bytes(const MaskBit& mask, std::size_t count, std::vector<std::uint8_t>& room) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "picture/bytes_of.h"
 #include "picture/texel_lists.h"
 #include "scene/face_neighbours.h"
 #include "simd/bounded_points.h"
@@ -37,8 +38,7 @@ class LightBounds {
   /// Whether each point that is left without a place because its Z is below `nearest` is nearer than all faces.
   bool all_faces_are_beyond(float nearest) const noexcept { return double{nearest} * w_greatest_ <= 1; }
   std::size_t memory_bytes() const noexcept {
-    return sizeof(*this) + texels_.capacity() * sizeof(texels_[0]) + faces_.capacity() * sizeof(faces_[0]) +
-           lists_.memory_bytes();
+    return sizeof(*this) + bytes_of(texels_) + bytes_of(faces_) + lists_.memory_bytes();
   }
 
  private:

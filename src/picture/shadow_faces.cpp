@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "map/face_planes.h"
+#include "picture/bytes_of.h"
 #include "picture/face_texels.h"
 #include "scene/reserve_pages.h"
 
@@ -55,11 +56,6 @@ std::int32_t texels_of(const Range& range, int count) {
 
 bool meets_raster(const Range& range) {
   return range.lower <= 1 + simd::kShadowMargin && range.upper >= -1 - simd::kShadowMargin;
-}
-
-template <class T>
-std::size_t bytes_of(const std::vector<T>& v) {
-  return v.capacity() * sizeof(T);
 }
 
 template <class T>

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <limits>
 
+#include "picture/bytes_of.h"
+
 namespace facemap {
 namespace {
 
@@ -18,11 +20,6 @@ constexpr int kMostRows = 512;
 
 // Spots are worth marking where there are this many faces a point: most faces then have no point in their box.
 constexpr std::size_t kFacesPerPointForSpots = 2;
-
-template <class Vector>
-std::size_t bytes_of(const Vector& v) {
-  return v.capacity() * sizeof(v[0]);
-}
 
 // About two points a texel, four times as many columns as rows: a row of a face is one run of points.
 simd::ShadowRaster raster_for(std::size_t points) {

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 
 #include "math/dvector.h"
+#include "picture/bytes_of.h"
 #include "picture/gnomonic.h"
 #include "picture/point_list.h"
 #include "picture/point_projection.h"
@@ -31,8 +32,8 @@ ShadowScratch::ShadowScratch(ShadowScratch&&) noexcept = default;
 ShadowScratch& ShadowScratch::operator=(ShadowScratch&&) noexcept = default;
 
 std::size_t ShadowScratch::memory_bytes() const noexcept {
-  return sizeof(Parts) + parts_->memory.memory_bytes() + parts_->sides.capacity() +
-         parts_->rest.capacity() * sizeof(std::uint32_t) + parts_->points.memory_bytes() + parts_->faces.memory_bytes();
+  return sizeof(Parts) + parts_->memory.memory_bytes() + bytes_of(parts_->sides) + bytes_of(parts_->rest) +
+         parts_->points.memory_bytes() + parts_->faces.memory_bytes();
 }
 
 namespace {

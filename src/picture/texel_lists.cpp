@@ -3,6 +3,8 @@
 #include <bit>
 #include <limits>
 
+#include "picture/bytes_of.h"
+
 namespace facemap {
 namespace {
 
@@ -11,11 +13,6 @@ constexpr std::size_t kPadding = 16;
 
 // What is left of an entry holds the depth.
 constexpr int kMostFaceBits = 26;
-
-template <class T>
-std::size_t bytes_of(const std::vector<T>& v) {
-  return v.capacity() * sizeof(T);
-}
 
 }  // namespace
 
