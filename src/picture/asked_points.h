@@ -32,6 +32,13 @@ inline simd::PointArrays arrays_of(const AskedPoints& points) {
   return {points.x.data(), points.y.data(), points.z.data(), points.size()};
 }
 
+/// Where a point is, world units.
+DVector place_of(const AskedPoints& points, std::uint32_t point);
+
+/// Of each coordinate of place_of, the roundings there included; of an offset from the light too, as long as those are
+/// bounded by its own size (verdict_on of near_face.h).
+double error_of(const AskedPoints& points, std::uint32_t point);
+
 /// Makes `some` the points of these numbers, all but their samples: those of places `first` on, as the ones before are
 /// there already.
 void copy_points(const AskedPoints& points, const std::vector<std::uint32_t>& numbers, std::size_t first,

@@ -1,8 +1,6 @@
 #include "picture/near_face.h"
 
-#include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 
 namespace facemap {
 namespace {
@@ -44,15 +42,6 @@ int verdict_on(const NearFace& face, const DVector& D, double error) {
     if (is_no(edge, 0, 0)) return -1;
   }
   return is_sure ? 1 : 0;
-}
-
-DVector place_of(const AskedPoints& points, std::uint32_t point) {
-  return points.origin + points.step * DVector(points.x[point], points.y[point], points.z[point]);
-}
-
-double error_of(const AskedPoints& points, std::uint32_t point) {
-  const DVector p = place_of(points, point), size = glm::max(glm::abs(points.origin), glm::abs(p));
-  return 2 * points.error + 0x1p-48 * std::max({size.x, size.y, size.z});
 }
 
 }  // namespace facemap

@@ -4,7 +4,6 @@
 
 #include "map/face_planes.h"
 #include "math/dvector.h"
-#include "picture/asked_points.h"
 
 namespace facemap {
 
@@ -30,12 +29,5 @@ NearFace near_face(std::uint32_t face, int side, const Triangle& corners, const 
 /// 1: the face surely blocks the point at D from the light, which is within `error` in each coordinate; -1: it surely
 /// does not; 0: open.
 int verdict_on(const NearFace& face, const DVector& D, double error);
-
-/// Where a point is, world units.
-DVector place_of(const AskedPoints& points, std::uint32_t point);
-
-/// Of each coordinate of place_of, the roundings there included; of an offset from the light too, as long as those are
-/// bounded by its own size (verdict_on).
-double error_of(const AskedPoints& points, std::uint32_t point);
 
 }  // namespace facemap
