@@ -32,7 +32,7 @@ bool is_blocked_by(const Scene& scene, const Vector& light, const AskedPoints& p
 
 }  // namespace
 
-std::size_t PlacedPoints::memory_bytes() const noexcept {
+std::size_t PointsOnLists::memory_bytes() const noexcept {
   return bytes_of(numbers) + bytes_of(texels) + bytes_of(depths) + bytes_of(pairs);
 }
 
@@ -49,7 +49,7 @@ bool are_lists_quicker(std::size_t points, std::size_t faces) {
 }
 
 std::size_t ask_lists(const Scene& scene, const Vector& light, const TexelLists& lists, const AskedPoints& points,
-                      const MaskBit& mask, const BlocksExactly& blocks_exactly, PlacedPoints& listed,
+                      const MaskBit& mask, const BlocksExactly& blocks_exactly, PointsOnLists& listed,
                       UnsetVector<std::uint8_t>& dark, Counters& counters) {
   const Mesh& mesh = scene.mesh();
   const DVector offset = points.origin - DVector(light);

@@ -14,7 +14,7 @@
 namespace facemap {
 
 /// Points of a light's raster, and where they lie on that of its lists (simd::OpenPlaces). Working memory of ask_lists.
-struct PlacedPoints {
+struct PointsOnLists {
   std::vector<std::uint32_t> numbers;
   std::vector<std::uint32_t> texels;
   std::vector<std::uint32_t> depths;
@@ -34,7 +34,7 @@ bool are_lists_quicker(std::size_t points, std::size_t faces);
 /// Clears the bit in mask.lit of each listed point that a face of its texel's list blocks. `dark`: one byte a point, 0
 /// for the listed ones. Returns how many points and faces were held against each other.
 std::size_t ask_lists(const Scene& scene, const Vector& light, const TexelLists& lists, const AskedPoints& points,
-                      const MaskBit& mask, const BlocksExactly& blocks_exactly, PlacedPoints& listed,
+                      const MaskBit& mask, const BlocksExactly& blocks_exactly, PointsOnLists& listed,
                       UnsetVector<std::uint8_t>& dark, Counters& counters);
 
 }  // namespace facemap

@@ -40,7 +40,7 @@ void clear_dark(const std::uint8_t* dark, std::size_t count, const MaskBit& mask
 }
 
 // Those without a place go to `others`.
-void split_by_place(PlacedPoints& listed, std::vector<std::uint32_t>& others) {
+void split_by_place(PointsOnLists& listed, std::vector<std::uint32_t>& others) {
   std::size_t placed = 0;
   for (std::size_t k = 0; k < listed.numbers.size(); ++k) {
     if (listed.texels[k] == simd::OpenPlaces::kNone) {

@@ -19,7 +19,7 @@ struct DecidedPoints {
   UnsetVector<std::uint8_t> dark;      ///< one a point: 1 where it is
   std::vector<std::uint32_t> numbers;  ///< of the other points that are open, ascending
   AskedPoints open;                    ///< those points, but for their samples
-  PlacedPoints listed;                 ///< open points that may ask the lists of the bounds instead
+  PointsOnLists listed;                ///< open points that may ask the lists of the bounds instead
 
   /// The only faces that may block those points, or null: any may.
   const std::vector<std::uint32_t>* faces = nullptr;
