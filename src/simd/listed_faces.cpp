@@ -23,8 +23,7 @@ namespace facemap::simd {
 inline constexpr float kListedEdgeError = 17 * 0x1p-24f;
 
 // The plane: the normal is off by 4 u |B| |C|; D - A by 7 u ||D|| + u ||A||, and by one rounding of itself, at most
-// ||A|| +
-// ||D||; and again 3 u.
+// ||A|| + ||D||; and again 3 u.
 inline constexpr float kListedPlaneError = 17 * 0x1p-24f;
 
 // What underflow of any product may lose, times lengths of at most 2 kGreatestListedSize each.
@@ -95,8 +94,8 @@ HWY_INLINE Verdict verdict_on(const FaceLists& lists, VU face, const Vector& D) 
   const auto plane_bound =
       hn::Add(hn::Mul(hn::Mul(of_normal, hn::Add(greatest_size(A), far)), hn::Set(d, kListedPlaneError)), underflow);
 
-  // All four are positive for a face turned away from the light that blocks the point, negative for one turned towards
-  // it.
+  // All four are positive for a face that is turned away from the light and blocks the point, negative for one turned
+  // towards it.
   const auto least = hn::Min(edge_bc, hn::Min(edge_ab, edge_ca));
   const auto greatest = hn::Max(edge_bc, hn::Max(edge_ab, edge_ca));
   const auto is_positive = hn::Gt(least, edge_bound), is_negative = hn::Lt(greatest, hn::Neg(edge_bound));

@@ -28,7 +28,7 @@ HWY_INLINE void mark_spots(hn::Vec<DF> u, hn::Vec<DF> v, const ShadowRaster& ras
 
 HWY_INLINE void append_rest(hn::Vec<DU> number, hn::Mask<DU> is_rest, std::vector<std::uint32_t>& rest) {
   const std::size_t before = rest.size();
-  rest.resize(before + 16);
+  rest.resize(before + kMostLanes);  // room for what is stored, the same on every target
   rest.resize(before + hn::CompressStore(number, is_rest, DU(), rest.data() + before));
 }
 
@@ -64,6 +64,10 @@ HWY_INLINE Placed place_lanes(const Run& run, std::size_t i, std::size_t left, c
   p.count = hn::CountTrue(du, is_on);
   return p;
 }
+
+// Works in place. No more points are stored than were read, and what is stored never overtakes what is read: the
+// coordinates of a whole run are read before any of its points is stored, the numbers of a vector before it is.
+static_assert(kRun % kLanes == 0 && kListPadding >= kRun);  // the last run is read past the end
 
 ProjectedPoints project_points(const ListedPoints& from, const PointTransform& by, const ShadowRaster& on_raster,
                                std::uint32_t* texels, std::uint32_t* ranks, const TexelCounts& to_count,

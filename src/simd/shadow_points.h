@@ -31,7 +31,7 @@ struct PointTransform {
   float nearest;  ///< points with a lesser Z are not for the raster
 };
 
-/// Asked points i with (wanted[i] & bit) != 0. `wanted` is readable for 64 elements past its end.
+/// Asked points i with (wanted[i] & bit) != 0.
 struct PointsToProject : PointTransform {
   const std::int32_t* x;
   const std::int32_t* y;

@@ -19,7 +19,10 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using DF = hn::CappedTag<float, 16>;
+// Of a vector of any target.
+constexpr std::size_t kMostLanes = 16;
+
+using DF = hn::CappedTag<float, kMostLanes>;
 using DU = hn::RebindToUnsigned<DF>;
 using DI = hn::RebindToSigned<DF>;
 using DD = hn::CappedTag<double, 8>;
@@ -43,7 +46,7 @@ HWY_INLINE hn::Vec<DD> row_of(const double* row, double offset, hn::Vec<DD> x, h
 // Of kRun points.
 struct RunPoints {
   const std::int32_t *x, *y, *z;
-  alignas(64) std::int32_t copy[3][kRun];  // where they do not stand side by side
+  alignas(64) std::int32_t copy[3][kRun];  // where fewer are left
 };
 
 // Points first.. of `count`; zeros after the last.
@@ -52,11 +55,15 @@ HWY_INLINE void set_run(const std::int32_t* x, const std::int32_t* y, const std:
   run.x = x + first;
   run.y = y + first;
   run.z = z + first;
-  if (count - first >= kRun) return;
+  const std::size_t left = count - first;
+  if (left >= kRun) return;
   std::memset(run.copy, 0, sizeof(run.copy));
-  run.x = std::copy_n(run.x, count - first, run.copy[0]) - (count - first);
-  run.y = std::copy_n(run.y, count - first, run.copy[1]) - (count - first);
-  run.z = std::copy_n(run.z, count - first, run.copy[2]) - (count - first);
+  std::copy_n(run.x, left, run.copy[0]);
+  std::copy_n(run.y, left, run.copy[1]);
+  std::copy_n(run.z, left, run.copy[2]);
+  run.x = run.copy[0];
+  run.y = run.copy[1];
+  run.z = run.copy[2];
 }
 
 // kRun points that stand side by side.

@@ -158,6 +158,8 @@ struct Verdicts {
   std::uint16_t open;  // neither yes nor no, the face's own points apart
 };
 
+// A face's own points are taken out of `open` alone: none is in `yes`, since a point lies within AskedPoints::error of
+// its own face, which the planes' bounds allow for.
 HWY_INLINE Verdicts verdicts_of(const ShadowPlanes& planes, std::size_t face, std::uint32_t id,
                                 const ShadowBlock& block) {
   const DF d;
