@@ -5,16 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
+#include <vector>
 
 #include "map/face_planes.h"
 #include "math/dvector.h"
 #include "math/exact_sign.h"
 #include "picture/decide_points.h"
-#include "picture/face_texels.h"
-#include "picture/gnomonic.h"
 #include "picture/kept_bounds.h"
 #include "scene/closed_parts.h"
-#include "simd/shadow_faces.h"
 #include "simd/target.h"
 #include "support/random.h"
 #include "support/scenes.h"
@@ -24,6 +23,22 @@ namespace {
 
 using test_scenes::Kind;
 using test_scenes::TestScene;
+
+// Of any kind but Wild.
+TestScene make_test_scene(int fewest_faces, int most_faces, Random& random) {
+  const auto kind = static_cast<Kind>(random.below(test_scenes::kKindCount - 1));
+  return test_scenes::make_scene(kind, random.between(fewest_faces, most_faces), random);
+}
+
+// Well outside the scene.
+Vector make_light(const TestScene& test, Random& random) {
+  return Vector(DVector(test.centre) +
+                test.radius * std::exp2(random.between(1.5, 6.0)) * normalized(DVector(random.direction())));
+}
+
+std::optional<LightBounds> find_bounds(const Scene& scene, const Vector& light) {
+  return LightBounds::find(scene, light, nullptr, find_face_neighbours(scene));
+}
 
 bool is_blocked(const Scene& scene, const Vector& light, const Vector& point) {
   const auto& faces = scene.kept_faces();
@@ -45,6 +60,12 @@ Vector make_point(const TestScene& test, Random& random) {
     if (random.chance(0.5)) point += test.radius * std::exp2(random.between(-20.0, -3.0)) * DVector(random.direction());
   }
   return Vector(point);
+}
+
+std::vector<Vector> make_points(int count, const TestScene& test, Random& random) {
+  std::vector<Vector> points;
+  for (int i = 0; i < count; ++i) points.push_back(make_point(test, random));
+  return points;
 }
 
 AskedPoints asked(const TestScene& test, const std::vector<Vector>& points) {
@@ -95,15 +116,12 @@ TEST(LightBounds, EqualTheExactAnswer) {
   Random random(kSeed);
   std::size_t all = 0, lit = 0, dark = 0;
   for (int round = 0; round < 120; ++round) {
-    const auto kind = static_cast<Kind>(random.below(test_scenes::kKindCount - 1));  // not Wild
-    const TestScene test = test_scenes::make_scene(kind, random.between(4, 400), random);
+    const TestScene test = make_test_scene(4, 400, random);
     const Scene scene(test.mesh);
-    const Vector light(DVector(test.centre) +
-                       test.radius * std::exp2(random.between(1.5, 6.0)) * normalized(DVector(random.direction())));
-    const auto bounds = LightBounds::find(scene, light, nullptr, find_face_neighbours(scene));
+    const Vector light = make_light(test, random);
+    const auto bounds = find_bounds(scene, light);
     if (!bounds) continue;
-    std::vector<Vector> points;
-    for (int i = 0; i < 300; ++i) points.push_back(make_point(test, random));
+    const std::vector<Vector> points = make_points(300, test, random);
     const AskedPoints questions = asked(test, points);
     const Decisions decisions = decide(*bounds, light, questions, round % 11, round % 11 < 8 && round % 2 == 0 ? 1 : 2);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -142,7 +160,7 @@ TEST(LightBounds, KnowThatASheetCastsAShadow) {
   }
   const Scene scene(mesh);
   const Vector light(0, 30, 0);
-  const auto bounds = LightBounds::find(scene, light, nullptr, find_face_neighbours(scene));
+  const auto bounds = find_bounds(scene, light);
   ASSERT_TRUE(bounds);
   TestScene test;
   test.radius = 8;
@@ -179,16 +197,13 @@ TEST(LightBounds, ListsEqualTheExactAnswer) {
   std::size_t listed = 0, blocked = 0, halved = 0;
   Counters counters;
   for (int round = 0; round < 250; ++round) {
-    const auto kind = static_cast<Kind>(random.below(test_scenes::kKindCount - 1));  // not Wild
-    const TestScene test = test_scenes::make_scene(kind, random.between(40, 900), random);
+    const TestScene test = make_test_scene(40, 900, random);
     const Scene scene(test.mesh);
-    const Vector light(DVector(test.centre) +
-                       test.radius * std::exp2(random.between(1.5, 6.0)) * normalized(DVector(random.direction())));
-    const auto bounds = LightBounds::find(scene, light, nullptr, find_face_neighbours(scene));
+    const Vector light = make_light(test, random);
+    const auto bounds = find_bounds(scene, light);
     if (!bounds || bounds->lists() == nullptr) continue;
     halved += bounds->lists()->size() != bounds->texels().size;
-    std::vector<Vector> points;
-    for (int i = 0; i < 300; ++i) points.push_back(make_point(test, random));
+    std::vector<Vector> points = make_points(300, test, random);
     for (int i = 0; i < 30; ++i) {
       const auto face = static_cast<std::size_t>(random.below(static_cast<int>(test.mesh.face_count())));
       const DVector a(test.mesh.vertex(face, 0)), b(test.mesh.vertex(face, 1));
@@ -220,13 +235,12 @@ TEST(LightBounds, AreTheSameOnEveryTarget) {
   const TestScene test = test_scenes::make_scene(Kind::Patch, 300, random);
   const Scene scene(test.mesh);
   const Vector light(DVector(test.centre) + DVector(1, 3, 2) * test.radius);
-  std::vector<Vector> points;
-  for (int i = 0; i < 3001; ++i) points.push_back(make_point(test, random));
+  const std::vector<Vector> points = make_points(3001, test, random);
   std::vector<Decisions> all;
   std::vector<std::uint64_t> by_float, by_exact;
   for (const simd::Target target : simd::supported_targets()) {
     simd::set_active_target(target);
-    const auto bounds = LightBounds::find(scene, light, nullptr, find_face_neighbours(scene));
+    const auto bounds = find_bounds(scene, light);
     ASSERT_TRUE(bounds);
     ASSERT_TRUE(bounds->lists());
     const AskedPoints questions = asked(test, points);
@@ -256,8 +270,7 @@ TEST(LightBounds, LeaveOutEntryFacesOfClosedPartsAlone) {
   Random random(kSeed);
   std::size_t lit = 0, dark = 0, listed = 0, hidden = 0;
   for (int round = 0; round < 100; ++round) {
-    const auto kind = static_cast<Kind>(random.below(test_scenes::kKindCount - 1));  // not Wild
-    TestScene test = test_scenes::make_scene(kind, random.between(4, 60), random);
+    TestScene test = make_test_scene(4, 60, random);
     const DVector middle = DVector(test.centre) + 0.7 * test.radius * random.in_cube();
     test.mesh = test_scenes::joined(
         test_scenes::geodesic_sphere(2, middle, test.radius * std::exp2(random.between(-5.0, 0.0))), test.mesh);
@@ -269,8 +282,7 @@ TEST(LightBounds, LeaveOutEntryFacesOfClosedPartsAlone) {
     if (skips.empty()) continue;
     const auto bounds = LightBounds::find(scene, light, skips.data(), find_face_neighbours(scene), false);
     if (!bounds) continue;
-    std::vector<Vector> points;
-    for (int i = 0; i < 200; ++i) points.push_back(make_point(test, random));
+    const std::vector<Vector> points = make_points(200, test, random);
     const Decisions decisions = decide(*bounds, light, asked(test, points), 0, 1);
     for (std::size_t i = 0; i < points.size(); ++i) {
       bool is_hidden = false, is_by_others = false, is_by_listed = false;
@@ -322,36 +334,7 @@ TEST(LightBounds, AreNotMadeForALightAmongTheFaces) {
   Random random(0x5eed0077);
   const TestScene test = test_scenes::make_scene(Kind::Shell, 40, random);
   const Scene scene(test.mesh);
-  EXPECT_FALSE(LightBounds::find(scene, test.centre, nullptr, find_face_neighbours(scene)));
-}
-
-// Faces in planes through the light, or next to one: the side is the exact one or not known.
-TEST(FaceTexels, NeverMistakeASide) {
-  constexpr std::uint64_t kSeed = 0x5eed007a;
-  std::printf("seed 0x%llx\n", (unsigned long long)kSeed);
-  Random random(kSeed);
-  std::size_t known = 0, unknown = 0;
-  for (int round = 0; round < 20000; ++round) {
-    const DVector a = random.in_cube(), b = random.in_cube(), c = random.in_cube();
-    const DVector along = normalized(random.unit() * (b - a) + random.between(-1.0, 1.0) * (c - a));
-    const DVector off = std::exp2(random.between(-30.0, -10.0)) * DVector(random.direction());
-    const Vector light((a + b + c) / 3.0 + random.between(4.0, 20.0) * along + off);
-    Mesh mesh;
-    test_scenes::add_triangle(mesh, Vector(a), Vector(b), Vector(c));
-    const OffsetBox box{DVector(-1) - DVector(light), DVector(1) - DVector(light)};
-    const auto frame = frame_towards(light, box, 0);
-    if (!frame) continue;
-    std::vector<float> places(3 * (mesh.positions.size() + 16));
-    simd::project_vertices(*frame, &mesh.positions[0].x, mesh.positions.size(), places.data());
-    const int found = FaceTexels(&places[0], &places[3], &places[6], 64).side();
-    ++(found == 0 ? unknown : known);
-    if (found != 0) {
-      const Triangle triangle{mesh.positions[0], mesh.positions[1], mesh.positions[2]};
-      ASSERT_EQ(found, side(triangle, light)) << round;
-    }
-  }
-  EXPECT_GT(known, 1000u);
-  EXPECT_GT(unknown, 1000u);
+  EXPECT_FALSE(find_bounds(scene, test.centre));
 }
 
 TEST(LightBounds, AreNotMadeOfAPileOfLargeFaces) {
@@ -361,48 +344,11 @@ TEST(LightBounds, AreNotMadeOfAPileOfLargeFaces) {
     test_scenes::add_triangle(mesh, {-4, height, -4}, {4, height, -4}, {0, height, 4});
   }
   const Scene scene(mesh);
-  EXPECT_FALSE(LightBounds::find(scene, {0, 30, 0}, nullptr, find_face_neighbours(scene)));
+  EXPECT_FALSE(find_bounds(scene, {0, 30, 0}));
   mesh.positions.resize(3 * 20);
   mesh.triangles.resize(20);
   const Scene few(mesh);
-  EXPECT_TRUE(LightBounds::find(few, {0, 30, 0}, nullptr, find_face_neighbours(few)));
-}
-
-// A face's texels hold all of it, and its w there is within the bounds.
-TEST(FaceTexels, HoldTheFace) {
-  constexpr std::uint64_t kSeed = 0x5eed0078;
-  std::printf("seed 0x%llx\n", (unsigned long long)kSeed);
-  Random random(kSeed);
-  for (int round = 0; round < 3000; ++round) {
-    const int size = 1 << random.between(2, 7);
-    const double extent = std::exp2(random.between(-7.0, 0.0));
-    const DVector middle(random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(0.4, 1.0));
-    float corners[3][3];
-    for (auto& corner : corners) {
-      const DVector place = middle + extent * DVector(random.direction());
-      for (int axis = 0; axis < 3; ++axis) corner[axis] = static_cast<float>(place[axis]);
-      corner[2] = std::max(corner[2], 0.01f);
-      corner[0] = std::clamp(corner[0], -1.2f, 1.2f);
-      corner[1] = std::clamp(corner[1], -1.2f, 1.2f);
-    }
-    const FaceTexels face(corners[0], corners[1], corners[2], size);
-    std::vector<FaceTexels::Piece> pieces(static_cast<std::size_t>(size * size), {0, 1, 0, false});
-    face.for_each([&](const FaceTexels::Piece& piece) { pieces[piece.texel] = piece; });
-    for (int k = 0; k < 200; ++k) {
-      double s = random.between(0.0, 1.0), t = random.between(0.0, 1.0);
-      if (s + t > 1) s = 1 - s, t = 1 - t;
-      double place[3];
-      for (int axis = 0; axis < 3; ++axis) {
-        place[axis] = (1 - s - t) * corners[0][axis] + s * corners[1][axis] + t * corners[2][axis];
-      }
-      if (std::fabs(place[0]) > 1 || std::fabs(place[1]) > 1) continue;
-      const int column = texel_of(static_cast<float>(place[0]), size),
-                row = texel_of(static_cast<float>(place[1]), size);
-      const FaceTexels::Piece& piece = pieces[static_cast<std::size_t>(row * size + column)];
-      ASSERT_LE(piece.least, place[2]) << round;
-      ASSERT_GE(piece.greatest, place[2]) << round;
-    }
-  }
+  EXPECT_TRUE(find_bounds(few, {0, 30, 0}));
 }
 
 }  // namespace
