@@ -15,6 +15,8 @@
 #include <facemap/mesh.h>
 #include <facemap/model.h>
 #include <facemap/obj.h>
+#include <facemap/parallel_light.h>
+#include <facemap/parallel_map.h>
 #include <facemap/point_light.h>
 #include <facemap/projection.h>
 #include <facemap/raster.h>

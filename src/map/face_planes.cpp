@@ -7,19 +7,12 @@
 #include <limits>
 
 #include "math/dvector.h"
+#include "math/power_of_two.h"
 #include "scene/reserve_pages.h"
 #include "simd/list_planes.h"
 
 namespace facemap {
 namespace {
-
-double power_of_two(int exponent) { return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52); }
-
-// 2^-k for the k with 2^k <= x < 2^(k+1); 1 for 0.
-double inverse_power_of_two(double x) {
-  if (!(x > 0)) return 1;
-  return power_of_two(1023 - static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52));
-}
 
 // One pass of a radix sort, ascending by eleven bits and else in the order that was; `from` and `to` change places.
 void sort_by_bits(std::vector<std::uint64_t>& from, int shift, std::vector<std::uint64_t>& to) {

@@ -6,6 +6,7 @@
 
 #include "map/cover.h"
 #include "map/face_planes.h"
+#include "map/raster_size.h"
 #include "map/texels.h"
 #include "math/dvector.h"
 #include "math/elementary.h"
@@ -24,9 +25,6 @@ constexpr double kWidestFit = 1.4;
 // The same for a plane, as a tangent (63 degrees): beyond, its middle would be too coarse.
 constexpr double kWidestPlane = 2;
 
-// A fitted plane is at most so many times as wide as high, or as high as wide.
-constexpr double kMostOblong = 8;
-
 // Half a fitted field is at least this (radians), so that a texel stays far above the errors of directions.
 constexpr double kNarrowestFit = 0x1p-24;
 
@@ -34,9 +32,6 @@ constexpr double kNarrowestFit = 0x1p-24;
 constexpr double kFieldMargin = 1e-3;
 
 constexpr const char* kNotFinite = "a point to be lit is not finite";
-
-constexpr int kFewestTexels = 64;  // a side
-constexpr int kMostTexels = 2048;  // a side
 
 DVector sight_of(const Scene& scene, const Vector& position) {
   const FloatingPointMode mode;
@@ -65,12 +60,6 @@ Reach reach_of_faces(const Scene& scene, const SpaceVector& frame) {
   }
   reach.r = std::sqrt(reach.r);
   return reach;
-}
-
-int texels_for(std::size_t faces) {
-  int texels = kFewestTexels;
-  while (texels < kMostTexels && static_cast<double>(texels) * texels < static_cast<double>(faces)) texels *= 2;
-  return texels;
 }
 
 // Departs: the paper's maps are surfaces, round the whole of a light. Seen from outside, a scene fits a plane, on which

@@ -12,6 +12,7 @@
 
 #include "math/parallel_signs.h"
 #include "support/parallel_oracle.h"
+#include "support/parallel_queries.h"
 #include "support/queries.h"
 #include "support/scenes.h"
 
@@ -30,6 +31,9 @@ using facemap::Vector;
 using oracle::Hit;
 using oracle::Oracle;
 using oracle::ParallelView;
+using test_queries::make_direction;
+using test_queries::make_point;
+using test_queries::make_ray_origin;
 using test_queries::text;
 using test_scenes::TestScene;
 
@@ -105,60 +109,6 @@ class AllFaces {
   Vector d_;
   std::vector<Face> faces_;
 };
-
-// Any direction, along an edge, along a line through two vertices, in a face's plane or along an axis.
-Vector make_direction(const Oracle& oracle, Random& random) {
-  const Mesh& mesh = oracle.mesh();
-  const auto face = [&] {
-    return oracle.kept_faces()[static_cast<std::size_t>(random.below(static_cast<int>(oracle.kept_faces().size())))];
-  };
-  const FaceId f = face(), g = face();
-  const Vector a = mesh.vertex(f, 0), b = mesh.vertex(f, 1), c = mesh.vertex(f, 2), e = mesh.vertex(g, 0);
-  Vector d(random.direction());
-  switch (random.below(6)) {
-    case 0:
-      d = b - a;
-      break;
-    case 1:
-      d = e - a;
-      break;
-    case 2:
-      d = (b - a) + static_cast<float>(random.unit()) * (c - a);
-      break;
-    case 3:
-      d = Vector(0);
-      d[random.below(3)] = random.chance(0.5) ? 1.0f : -1.0f;
-      break;
-    default:
-      break;
-  }
-  const bool is_usable = std::isfinite(d.x) && std::isfinite(d.y) && std::isfinite(d.z) && d != Vector(0);
-  return is_usable ? d : Vector(random.direction());
-}
-
-bool is_finite(const Vector& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-// A vertex, a point near an edge or a face, or any point of the scene.
-Vector make_point(const TestScene& scene, const Oracle& oracle, Random& random) {
-  const auto count = static_cast<int>(oracle.kept_faces().size());
-  const FaceId f = oracle.kept_faces()[static_cast<std::size_t>(random.below(count))];
-  const DVector a(scene.mesh.vertex(f, 0)), b(scene.mesh.vertex(f, 1)), c(scene.mesh.vertex(f, 2));
-  const int choice = random.below(5);
-  if (choice == 0) return Vector(a);
-  const double p = random.unit(), q = choice == 1 ? 0.5 : random.unit(), r = choice == 2 ? 0 : (1 - p) * q;
-  Vector P(a + p * (b - a) + r * (c - a));
-  if (choice == 3) P = Vector(DVector(scene.centre) + scene.radius * random.in_cube());
-  return is_finite(P) ? P : Vector(a);
-}
-
-// Where a ray that passes that point starts: before it, or in it.
-Vector make_ray_origin(const TestScene& scene, const Oracle& oracle, const Vector& d, Random& random) {
-  const Vector P = make_point(scene, oracle, random);
-  if (random.chance(0.2)) return P;
-  const double step = (random.chance(0.5) ? 4.0 : random.unit()) * scene.radius / glm::length(DVector(d));
-  const Vector O(DVector(P) - (random.chance(0.5) ? std::exp2(std::round(std::log2(step))) : step) * DVector(d));
-  return is_finite(O) ? O : P;
-}
 
 TruePoint true_point(const SurfacePoint& point) { return {point.origin, point.direction, point.vertices, point.side}; }
 
