@@ -1,58 +1,44 @@
-# Renders an OBJ with Cycles at one sample a pixel: blender -b --python cycles.py -- OBJ VIEW PNG, the view as flags of
-# facemap render. Lights fall off with the square of the distance in Cycles; they are given the strength that they
-# have at the point that the camera looks at.
-import math
+# Renders a model with Cycles: blender -b --factory-startup --python cycles.py -- MODEL VIEW PNG [SAMPLES], the view as
+# flags of facemap render. Lights fade with the square of the distance in Cycles; unless the flags say so too, they are
+# given the strength that they have at the point that the camera looks at. Prints the seconds that reading and
+# rendering take.
+import os
 import sys
+import time
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 import bpy
-from mathutils import Matrix, Vector
+from mathutils import Vector
 
-model, view_file, picture = sys.argv[sys.argv.index("--") + 1:]
+import cycles_scene
+
+model, view_file, picture, *rest = sys.argv[sys.argv.index("--") + 1 :]
 words = open(view_file).read().split()
 flags = list(zip(words[::2], words[1::2]))
+view = dict(flags)
 
 
 def numbers(text):
-    return [float(x) for x in text.split(",")]
+    return [float(number) for number in text.split(",")]
 
 
-view = {name: numbers(value) for name, value in flags if name != "--light"}
-bpy.ops.object.select_all(action="SELECT")
-bpy.ops.object.delete()
-bpy.ops.wm.obj_import(filepath=model, forward_axis="Y", up_axis="Z")
-
-position, look_at = Vector(view["--camera"]), Vector(view["--look-at"])
-sight = (look_at - position).normalized()
-right = sight.cross(Vector(view["--up"])).normalized()
-up = right.cross(sight)
-camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
-camera.data.angle = math.radians(view["--field-angle"][0])
-camera.matrix_world = Matrix.Translation(position) @ Matrix((right, up, -sight)).transposed().to_4x4()
-bpy.context.collection.objects.link(camera)
-
+start = time.perf_counter()
+cycles_scene.import_model(model)
+camera = {name: numbers(view[name]) for name in ("--camera", "--look-at", "--up", "--field-angle")}
+size = [int(side) for side in view.get("--size", "1024x1024").split("x")]
+cycles_scene.look(camera["--camera"], camera["--look-at"], camera["--up"], camera["--field-angle"][0], size)
 for name, value in flags:
     if name != "--light":
         continue
-    x, y, z, r, g, b = numbers(value)
-    light = bpy.data.objects.new("light", bpy.data.lights.new("light", "POINT"))
-    light.location = (x, y, z)
-    light.data.shadow_soft_size = 0
-    light.data.color = (r, g, b)
-    light.data.energy = 4 * math.pi**2 * (Vector((x, y, z)) - look_at).length_squared
-    bpy.context.collection.objects.link(light)
-
-scene = bpy.context.scene
-scene.camera = camera
-scene.world = None
-scene.render.engine = "CYCLES"
-scene.cycles.samples = 1
-scene.cycles.use_denoising = False
-scene.cycles.max_bounces = 0
-scene.render.threads_mode = "FIXED"
-scene.render.threads = 2
-scene.render.resolution_x = scene.render.resolution_y = 1024
-scene.render.resolution_percentage = 100
-scene.view_settings.view_transform = "Standard"
-scene.render.image_settings.file_format = "PNG"
-scene.render.filepath = picture
+    light = cycles_scene.add_point_light(numbers(value)[:3], numbers(value)[3:])
+    if view.get("--falloff") != "inverse-square":
+        light.data.energy *= (light.location - Vector(camera["--look-at"])).length_squared
+cycles_scene.use_cycles(2)
+cycles_scene.diffuse_only()
+cycles_scene.sample_pixels(int(rest[0]) if rest else 1)
+bpy.context.scene.render.image_settings.file_format = "PNG"
+bpy.context.scene.render.filepath = picture
+read = time.perf_counter()
 bpy.ops.render.render(write_still=True)
+print(f"seconds: {read - start:.3f} reading, {time.perf_counter() - read:.3f} rendering")
