@@ -53,7 +53,7 @@ Picture draw(const Subject& subject, int size, ProjectionKind projection, Builde
   Renderer::Options options;
   options.width = options.height = size;
   options.builder = builder;
-  options.want_ids = options.want_lights = true;
+  options.planes = {Plane::Id, Plane::Lights};
   options.strategy = Renderer::Strategy::Lists;  // the paper's: whole pictures have another
   View view = subject.view;
   view.projection = projection;

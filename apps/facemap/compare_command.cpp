@@ -8,7 +8,9 @@
 
 #include "commands.h"
 #include "exit_codes.h"
+#include "file_format.h"
 #include "output.h"
+#include "pending_files.h"
 #include "text_values.h"
 #include "usage_error.h"
 
@@ -96,7 +98,8 @@ void check_difference_file(const CompareArguments& arguments) {
     if (fs::equivalent(arguments.difference, picture, ignored))
       throw UsageError(arguments.difference.string() + ": the difference would replace a picture");
   }
-  check_png_output(arguments.difference, {});
+  format_of(arguments.difference);
+  check_picture_output(arguments.difference, {});
 }
 
 int compare(const CompareArguments& arguments) {
@@ -105,7 +108,10 @@ int compare(const CompareArguments& arguments) {
   const PictureChannels a = read_picture(arguments.a), b = read_picture(arguments.b);
   const Comparison comparison = compare_pictures(a, b, arguments.threshold.value_or(0));
   const bool within = is_within(comparison, arguments, pixels_of(a));
-  if (!arguments.difference.empty()) write_png(difference_picture(a, b), arguments.difference);
+  if (!arguments.difference.empty()) {
+    const FileFormat format = format_of(arguments.difference);
+    write_output(arguments.difference, encode_picture(difference_picture(a, b), format, {}, {}, 0));
+  }
   if (!arguments.quiet) print(comparison, a, within);
   return within ? kDone : kFailed;
 }
@@ -123,7 +129,7 @@ std::vector<Option> compare_options(CompareArguments& arguments) {
       {"--mean-threshold", "N", "",
        "the largest mean difference of all channels of all pixels; if it is the only limit, single pixels are free",
        into(arguments.mean_threshold, parse_positive)},
-      {"--difference", "FILE", "", "writes a PNG of the differences: black is none, the largest is brightest",
+      {"--difference", "FILE", "", "writes a picture of the differences: black is none, the largest is brightest",
        into(arguments.difference, parse_path)},
       {"-q,--quiet", "", "", "no figures: the exit code alone",
        [&arguments](const std::string&) { arguments.quiet = true; }},

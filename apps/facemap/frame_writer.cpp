@@ -2,31 +2,27 @@
 
 #include <utility>
 
-#include "interrupt.h"
-#include "output.h"
+#include "pending_files.h"
 #include "stopwatch.h"
 
 namespace facemap::program {
-namespace {
 
-double write_files(const Image& image, const FrameFiles& files, int threads) {
+double FrameWriter::write_files(const Image& image, const FrameFiles& files, int threads) const {
   Stopwatch time;
-  if (is_standard_output(files.picture))
-    write_to_standard_output(encode_png(image, threads));  // a pipe may never take it
-  write_whole([&] {
-    if (!is_standard_output(files.picture)) write_png(image, files.picture, threads);
-    if (!files.ids.empty()) write_ids_npy(image, files.ids);
-    if (!files.depths.empty()) write_depths_npy(image, files.depths);
-    if (!files.lights.empty()) write_lights_npy(image, files.lights);
-  });
+  PendingFiles pending;
+  const FileFormat format = picture_format(files.picture, settings_);
+  pending.add(files.picture, encode_picture(image, format, settings_, layers_, threads));
+  for (const auto& [plane, file] : files.planes) {
+    pending.add(file, encode_plane(image, plane, plane_format(file, plane), settings_.quality, threads));
+  }
+  pending.commit();
   return time.lap();
 }
 
-}  // namespace
-
 void FrameWriter::begin(Image image, const FrameFiles& files) {
   finish();
-  frame_ = std::async(std::launch::async, [image = std::move(image), files] { return write_files(image, files, 1); });
+  frame_ =
+      std::async(std::launch::async, [this, image = std::move(image), files] { return write_files(image, files, 1); });
 }
 
 void FrameWriter::write(const Image& image, const FrameFiles& files, int threads) {

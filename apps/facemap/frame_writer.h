@@ -4,19 +4,28 @@
 
 #include <filesystem>
 #include <future>
+#include <vector>
+
+#include "file_format.h"
 
 namespace facemap::program {
 
-/// Where a frame goes; an empty plane is not wanted.
-struct FrameFiles {
-  std::filesystem::path picture;  ///< - is standard output
-  std::filesystem::path ids, depths, lights;
+struct PlaneFile {
+  Plane plane;
+  std::filesystem::path file;
 };
 
-/// Writes frames while the next ones are being made. A frame's files appear together: a signal waits for the last.
+/// Where a frame goes; - is standard output.
+struct FrameFiles {
+  std::filesystem::path picture;
+  std::vector<PlaneFile> planes;
+};
+
+/// Writes frames while the next ones are being made. A frame's files appear together, when all are complete.
 class FrameWriter {
  public:
-  FrameWriter() = default;
+  /// `layers`: planes that the pictures hold themselves.
+  FrameWriter(const FormatSettings& settings, PlaneSet layers) : settings_(settings), layers_(layers) {}
   ~FrameWriter() = default;  ///< waits
   FrameWriter(const FrameWriter&) = delete;
   FrameWriter& operator=(const FrameWriter&) = delete;
@@ -35,6 +44,10 @@ class FrameWriter {
   double written_ms() const noexcept { return written_ms_; }
 
  private:
+  double write_files(const Image& image, const FrameFiles& files, int threads) const;
+
+  FormatSettings settings_;
+  PlaneSet layers_;
   std::future<double> frame_;  ///< the one being written; gives its milliseconds
   double waited_ms_ = 0, written_ms_ = 0;
 };

@@ -4,13 +4,10 @@
 
 #include <algorithm>
 
-#include "output.h"
 #include "usage_error.h"
 
 namespace facemap::program {
 namespace {
-
-constexpr const char* kPlaceholder = "{n}";
 
 /// The value of frame `i` from a list that has none, one or one a frame.
 template <typename Value>
@@ -24,13 +21,6 @@ void check_number(const char* flag, std::size_t given, std::size_t cameras) {
   std::string reason = std::string(flag) + " is given " + std::to_string(given) + " times, --camera ";
   reason += cameras == 0 ? "not at all" : cameras == 1 ? "once" : std::to_string(cameras) + " times";
   throw UsageError(reason + "; give it once for all cameras or once for each");
-}
-
-std::string with_number(std::string name, const std::string& number) {
-  for (std::size_t at = 0; (at = name.find(kPlaceholder, at)) != std::string::npos; at += number.size()) {
-    name.replace(at, std::string(kPlaceholder).size(), number);
-  }
-  return name;
 }
 
 }  // namespace
@@ -57,29 +47,18 @@ std::size_t WantedFrames::count() const {
   return turntable > 0 ? static_cast<std::size_t>(turntable) : views;
 }
 
+FrameRange WantedFrames::selected() const {
+  const std::size_t all = count();
+  if (!range) return {0, all - 1};
+  if (range->last < all) return *range;
+  throw UsageError("--frames " + std::to_string(range->last) + ": the pictures are numbered 0 to " +
+                   std::to_string(all - 1));
+}
+
 std::vector<View> complete_views(const Scene& scene, const WantedFrames& wanted) {
   std::vector<View> views;
   for (const WantedView& view : wanted.each()) views.push_back(complete_view(scene, view));
   return wanted.turntable > 0 ? turntable(views[0], wanted.turntable) : views;
-}
-
-std::vector<std::filesystem::path> frame_files(const std::filesystem::path& name, std::size_t count) {
-  if (count > 1) {
-    if (is_standard_output(name))
-      throw UsageError("-o -: standard output takes one picture, not " + std::to_string(count));
-    if (name.string().find(kPlaceholder) == std::string::npos) {
-      const std::string proposal = name.stem().string() + "_" + kPlaceholder + name.extension().string();
-      throw UsageError(name.string() + ": the names of " + std::to_string(count) + " pictures need " + kPlaceholder +
-                       ", the picture's number, such as " + proposal);
-    }
-  }
-  const std::size_t width = std::to_string(count).size();
-  std::vector<std::filesystem::path> files;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::string digits = std::to_string(i);
-    files.emplace_back(with_number(name.string(), std::string(width - digits.size(), '0') + digits));
-  }
-  return files;
 }
 
 }  // namespace facemap::program

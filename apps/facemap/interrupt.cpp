@@ -12,39 +12,57 @@ namespace facemap::program {
 namespace {
 
 // A signal handler can reach nothing else than globals, and of these only lock-free ones. It runs on any thread, so
-// it sets pending_signal before it reads is_writing, and a writer does it the other way round: one of them sees the
+// it sets pending_signal before it reads is_holding, and who holds does it the other way round: one of them sees the
 // other.
-std::atomic<int> is_writing = 0;
+std::atomic<int> is_holding = 0;
 std::atomic<int> pending_signal = 0;
-std::atomic<int> has_temporary = 0;
 static_assert(std::atomic<int>::is_always_lock_free);
-char temporary[PATH_MAX];
 
-void on_signal(int signal) {
-  const bool is_first = pending_signal.exchange(signal) == 0;
-  if (is_writing && is_first) return;
-  if (has_temporary) ::unlink(temporary);
+/// A file to be removed.
+struct Temporary {
+  std::atomic<int> is_taken = 0, is_there = 0;
+  char path[PATH_MAX] = {};
+};
+constexpr int kMostTemporaries = 32;  // a picture has a file for each plane
+Temporary temporaries[kMostTemporaries];
+
+[[noreturn]] void end(int signal) {
+  for (Temporary& temporary : temporaries) {
+    if (temporary.is_there) ::unlink(temporary.path);
+  }
   ::_exit(128 + signal);
 }
 
+void on_signal(int signal) {
+  pending_signal = signal;
+  if (!is_holding) end(signal);
+}
+
 void end_if_signalled() {
-  if (const int signal = pending_signal) ::_exit(128 + signal);
+  if (const int signal = pending_signal) end(signal);
 }
 
 /// Holds signals off.
-class Writing {
+class Holding {
  public:
-  Writing() {
-    is_writing = 1;
+  Holding() {
+    is_holding = 1;
     end_if_signalled();
   }
-  ~Writing() {
-    is_writing = 0;
+  ~Holding() {
+    is_holding = 0;
     end_if_signalled();
   }
-  Writing(const Writing&) = delete;
-  Writing& operator=(const Writing&) = delete;
+  Holding(const Holding&) = delete;
+  Holding& operator=(const Holding&) = delete;
 };
+
+int free_slot() {
+  for (int slot = 0; slot < kMostTemporaries; ++slot) {
+    if (temporaries[slot].is_taken.exchange(1) == 0) return slot;
+  }
+  throw Error("too many files are being written");
+}
 
 }  // namespace
 
@@ -61,17 +79,24 @@ void catch_signals() {
   ::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow further is then an error of write()
 }
 
-void write_whole(const std::function<void()>& write) {
-  const Writing writing;
-  write();
+void hold_signals(const std::function<void()>& work) {
+  const Holding holding;
+  work();
 }
 
-RemovedOnSignal::RemovedOnSignal(const std::filesystem::path& path) {
-  if (path.native().size() >= sizeof temporary) throw Error(path.string() + ": the name is too long");
-  std::memcpy(temporary, path.c_str(), path.native().size() + 1);
-  has_temporary = 1;
+RemovedOnSignal::RemovedOnSignal(const std::filesystem::path& path) : slot_(free_slot()) {
+  Temporary& temporary = temporaries[slot_];
+  if (path.native().size() >= sizeof temporary.path) {
+    temporary.is_taken = 0;
+    throw Error(path.string() + ": the name is too long");
+  }
+  std::memcpy(temporary.path, path.c_str(), path.native().size() + 1);
+  temporary.is_there = 1;
 }
 
-RemovedOnSignal::~RemovedOnSignal() { has_temporary = 0; }
+RemovedOnSignal::~RemovedOnSignal() {
+  temporaries[slot_].is_there = 0;
+  temporaries[slot_].is_taken = 0;
+}
 
 }  // namespace facemap::program

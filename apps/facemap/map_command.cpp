@@ -8,10 +8,11 @@
 
 #include "commands.h"
 #include "exit_codes.h"
+#include "file_format.h"
 #include "hit_picture.h"
-#include "interrupt.h"
 #include "model.h"
 #include "output.h"
+#include "pending_files.h"
 #include "text_values.h"
 #include "usage_error.h"
 
@@ -43,7 +44,8 @@ int thread_count(int wanted) {
 void draw_map(const MapArguments& arguments) {
   if (arguments.model.empty()) throw UsageError("no model is given");
   if (!arguments.at) throw UsageError("no place is given: add --at X,Y,Z");
-  check_png_output(arguments.output, arguments.model);
+  const FileFormat format = format_of(arguments.output);
+  check_picture_output(arguments.output, arguments.model);
   const Scene scene = load_model(arguments.model, arguments.quiet, arguments.threads);
 
   Camera::Options options;
@@ -55,11 +57,7 @@ void draw_map(const MapArguments& arguments) {
   const Camera map(scene, frame_of(arguments, scene), options);
   const std::vector<int> hits = count_hits_by_texel(map, thread_count(arguments.threads));
   const Image image = hit_picture(hits, options.width, options.height);
-  if (is_standard_output(arguments.output)) {
-    write_to_standard_output(encode_png(image, arguments.threads));
-  } else {
-    write_whole([&] { write_png(image, arguments.output, arguments.threads); });
-  }
+  write_output(arguments.output, encode_picture(image, format, {}, {}, arguments.threads));
   if (!arguments.quiet) {
     std::cerr << "facemap: map: " << map.entry_count() << " entries, " << map.memory_bytes() << " bytes, at most "
               << *std::max_element(hits.begin(), hits.end()) << " faces behind one another\n";

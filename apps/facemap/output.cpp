@@ -33,11 +33,7 @@ void check_output(const fs::path& output, const fs::path& model) {
   if (refused) throw Error(output.string() + ": cannot write: " + std::strerror(errno));
 }
 
-void check_png_output(const fs::path& output, const fs::path& model) {
-  for (const char* other :
-       {".jpg", ".jpeg", ".exr", ".hdr", ".bmp", ".gif", ".tif", ".tiff", ".ppm", ".webp", ".svg"}) {
-    if (output.extension() == other) throw UsageError(output.string() + ": pictures are written as PNG; call it .png");
-  }
+void check_picture_output(const fs::path& output, const fs::path& model) {
   if (is_standard_output(output) && ::isatty(STDOUT_FILENO)) {
     throw UsageError("-o -: standard output is a terminal; send it to a file or a program");
   }

@@ -13,8 +13,8 @@ bool is_standard_output(const std::filesystem::path& output);
 /// `model` (may be empty), Error if its folder is absent or cannot be written to.
 void check_output(const std::filesystem::path& output, const std::filesystem::path& model);
 
-/// As above, and refuses names of pictures that are not PNG, and a terminal as standard output.
-void check_png_output(const std::filesystem::path& output, const std::filesystem::path& model);
+/// As above, and refuses a terminal as standard output.
+void check_picture_output(const std::filesystem::path& output, const std::filesystem::path& model);
 
 /// Throws Error if not all bytes can be written.
 void write_to_standard_output(std::span<const std::uint8_t> bytes);

@@ -17,7 +17,9 @@ enum class StatsFormat { None, Json, Text };
 /// What facemap render is told.
 struct RenderArguments {
   std::filesystem::path model;
-  FrameFiles files;  ///< names that may hold {n}
+  FrameFiles files;  ///< names that may hold {n} and {model}
+  FormatSettings format;
+  PlaneSet layers;  ///< planes that the picture's file holds itself
   Size size;
   WantedFrames frames;
   std::vector<Light> lights;

@@ -22,12 +22,13 @@ std::vector<Light> lights_of(const RenderArguments& arguments, const Scene& scen
   return lights;
 }
 
-void say_what_was_made_up(const RenderArguments& arguments, const std::vector<View>& views,
+void say_what_was_made_up(const RenderArguments& arguments, const std::vector<View>& views, const FrameRange& range,
                           const std::vector<Light>& lights) {
   if (arguments.quiet) return;
   const std::vector<WantedView> wanted = arguments.frames.each();
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    if (!wanted[i].is_complete()) std::cerr << "facemap: view: " << flags_of(views[i]) << '\n';
+    const bool is_made = arguments.frames.turntable > 0 || (range.first <= i && i <= range.last);
+    if (is_made && !wanted[i].is_complete()) std::cerr << "facemap: view: " << flags_of(views[i]) << '\n';
   }
   if (arguments.lights.empty()) std::cerr << "facemap: lights: " << flags_of(lights) << '\n';
 }
@@ -47,8 +48,7 @@ void print_warnings(const Renderer::Statistics& statistics, ProgressLine& line) 
 
 /// One picture after the other: what is made for the lights is made once. Each is written while the next is made.
 void render_frames(Renderer& renderer, const std::vector<View>& views, const std::vector<FrameFiles>& files,
-                   int threads, bool shows_progress, Stats& stats) {
-  FrameWriter writer;
+                   FrameWriter& writer, int threads, bool shows_progress, Stats& stats) {
   ProgressLine line(shows_progress);
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (i > 0) renderer.set_view(views[i]);
@@ -76,11 +76,15 @@ void render(const RenderArguments& arguments) {
   const Scene scene = load_model(arguments.model, arguments.quiet, arguments.options.threads);
   stats.load_ms = phase.lap();
 
-  const std::vector<View> views = complete_views(scene, arguments.frames);
+  const FrameRange range = arguments.frames.selected();
+  const std::vector<View> all_views = complete_views(scene, arguments.frames);
+  const std::vector<View> views(all_views.begin() + static_cast<std::ptrdiff_t>(range.first),
+                                all_views.begin() + static_cast<std::ptrdiff_t>(range.last) + 1);
   const std::vector<Light> lights = lights_of(arguments, scene);
-  say_what_was_made_up(arguments, views, lights);
+  say_what_was_made_up(arguments, all_views, range, lights);
   Renderer renderer(scene, views[0], lights, renderer_options(arguments));
-  render_frames(renderer, views, files, arguments.options.threads, !arguments.quiet, stats);
+  FrameWriter writer(arguments.format, arguments.layers);
+  render_frames(renderer, views, files, writer, arguments.options.threads, !arguments.quiet, stats);
 
   stats.total_ms = total.lap();
   stats.model = arguments.model.string();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <facemap/atomic_file.h>
 #include <facemap/camera.h>
 #include <facemap/color.h>
 #include <facemap/compare.h>
@@ -17,6 +18,7 @@
 #include <facemap/obj.h>
 #include <facemap/parallel_light.h>
 #include <facemap/parallel_map.h>
+#include <facemap/plane.h>
 #include <facemap/point_light.h>
 #include <facemap/projection.h>
 #include <facemap/raster.h>

@@ -2,6 +2,8 @@
 
 #include <facemap/color.h>
 #include <facemap/face.h>
+#include <facemap/plane.h>
+#include <facemap/vector.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -10,14 +12,24 @@
 namespace facemap {
 
 /// A picture and the planes (AOVs) behind it. Wang 2022, sec. 4.3: the Image class. Row by row from the top;
-/// pixel (x, y) is element y * width + x of each array. A plane that was not asked for is empty.
+/// pixel (x, y) is element y * width + x of each array. A plane that was not asked for is empty; the others hold the
+/// ray through the pixel's centre, and what is said after the semicolon where it sees no face. World units and axes.
 struct Image {
   int width = 0;
   int height = 0;
-  std::vector<Color> pixels;         ///< linear RGB
-  std::vector<FaceId> ids;           ///< face seen by the ray through the pixel's centre; kNoFace: none
-  std::vector<float> depths;         ///< distance along that ray, world units; infinity: none
-  std::vector<std::uint8_t> lights;  ///< ceil(light_count/8) bytes a pixel, least significant bit first, 1 = lit
+  std::vector<Color> pixels;            ///< linear RGB
+  std::vector<FaceId> ids;              ///< face that is seen; kNoFace
+  std::vector<float> depths;            ///< distance from the ray's origin to the point that is seen; infinity
+  std::vector<float> zs;                ///< the share of it along the sight, below 0 behind the camera; infinity
+  std::vector<Vector> positions;        ///< of the point; NaN
+  std::vector<Vector> normals;          ///< of shading: unit, smooth and with reliefs if the picture is; 0
+  std::vector<Vector> face_normals;     ///< of the face's plane: unit, on the side that is seen; 0
+  std::vector<Color> albedos;           ///< diffuse or base colour with its texture, linear RGB; 0
+  std::vector<glm::vec2> uvs;           ///< texture coordinates as the model has them; NaN, also where it has none
+  std::vector<std::int32_t> objects;    ///< into Scene::objects(); -1, also where it has none
+  std::vector<std::int32_t> materials;  ///< into Scene::materials(); -1, also where it has none
+  std::vector<std::uint8_t> lights;   ///< ceil(light_count/8) bytes, least significant bit first, 1 = it gets there; 0
+  std::vector<std::int32_t> shadows;  ///< lights that do not get there: hidden, turned away, or beyond their cone; -1
   int light_count = 0;
 
   int light_bytes() const { return (light_count + 7) / 8; }
@@ -31,10 +43,9 @@ void write_png(const Image& image, const std::filesystem::path& path, int thread
 /// The bytes of that file, for a pipe or a web server. Throws Error if the image is empty.
 std::vector<std::uint8_t> encode_png(const Image& image, int threads = 0);
 
-/// Write one plane as a NumPy .npy file (version 1.0), the same way: int32 [H,W], float32 [H,W], uint8 [H,W,B].
-void write_ids_npy(const Image& image, const std::filesystem::path& path);
-void write_depths_npy(const Image& image, const std::filesystem::path& path);
-void write_lights_npy(const Image& image, const std::filesystem::path& path);
+/// Writes one plane as a NumPy .npy file (version 1.0), the same way: [H,W], or [H,W,C] for planes of several numbers a
+/// pixel; float32, int32, or uint8 (Lights). Throws Error, too, if the image has no such plane.
+void write_npy(const Image& image, Plane plane, const std::filesystem::path& path);
 
 /// Reads a PNG of 8-bit RGB as 24-bit values, row by row. Throws Error. For comparing pictures.
 struct Picture24 {

@@ -23,11 +23,12 @@ struct PlaneView {
   Values values;
 };
 
-/// The planes of an image, which must outlive them. Throw Error if the image has no such plane.
-PlaneView color_plane(const Image& image);  ///< linear R, G, B
-PlaneView id_plane(const Image& image);
-PlaneView depth_plane(const Image& image);
-PlaneView light_plane(const Image& image);  ///< Image::light_bytes() channels
+/// The colours of an image, linear R, G, B, and its planes; it must outlive them. Throw Error if it has no such plane.
+PlaneView color_plane(const Image& image);
+PlaneView plane_view(const Image& image, Plane plane);
+
+/// A plane for the eye, as docs/output.md says: near is white, directions and ids are colours, no face is black.
+Image plane_picture(const Image& image, Plane plane);
 
 /// How a level stands for light.
 enum class Transfer {
@@ -68,6 +69,10 @@ struct ExrLayers {
   PlaneView plane;
   Storage storage = Storage::Exact;
 };
+
+/// The colours as R, G, B, and a plane as channels of the names in docs/output.md: "Z", "P.X", "face.id".
+ExrLayers color_layers(const Image& image, ExrLayers::Storage storage);
+ExrLayers plane_layers(const Image& image, Plane plane);
 
 /// OpenEXR: scan lines, ZIP compression, linear light with the primaries of sRGB. Every plane has the same size; no
 /// name is there twice.

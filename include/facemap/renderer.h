@@ -4,6 +4,7 @@
 #include <facemap/color.h>
 #include <facemap/image.h>
 #include <facemap/light.h>
+#include <facemap/plane.h>
 #include <facemap/point_light.h>
 #include <facemap/scene.h>
 
@@ -69,7 +70,7 @@ class Renderer {
     Vector up{0, 1, 0};                        ///< where above is
     std::uint64_t max_texture_pixels = std::uint64_t{1} << 26;  ///< an image of more is left out, with a warning
     Builder builder = Builder::Cover;
-    bool want_ids = false, want_depths = false, want_lights = false;  ///< planes to fill
+    PlaneSet planes;  ///< to fill; they cost nothing if none is wanted
     Strategy strategy = Strategy::Auto;
     LightMaps light_maps = LightMaps::Auto;
     int threads = 0;             ///< 0: as many as the process may run at once
@@ -120,6 +121,7 @@ class Renderer {
   Image paint_by_lists(const Request& request);
   void build_lists(const Request& request);
   void load_materials();
+  void fill_planes(Image& image);
 
   const Scene* scene_;
   View view_;

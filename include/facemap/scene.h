@@ -22,6 +22,12 @@ struct OddFaces {
   std::int64_t duplicate = 0;        ///< the same three positions as a face of lower id, in any order
 };
 
+/// The triangles from `first_triangle` on, up to the next run, are part of `object`; kNoIndex: of none.
+struct ObjectRun {
+  std::size_t first_triangle;
+  std::uint32_t object;
+};
+
 /// The geometry that maps are made of: a mesh, and which of its faces count. Immutable; maps keep a
 /// reference, so a scene must outlive them. Threads may read it together.
 class Scene {
@@ -41,7 +47,12 @@ class Scene {
 
   const Mesh& mesh() const noexcept { return mesh_; }
   const std::vector<Material>& materials() const noexcept { return materials_; }
-  const std::vector<TextureImage>& images() const noexcept { return images_; }  ///< that materials name, not decoded
+  const std::vector<TextureImage>& images() const noexcept { return images_; }   ///< that materials name, not decoded
+  const std::vector<std::string>& objects() const noexcept { return objects_; }  ///< names of the model's objects
+
+  /// The index into objects() of what `face` is part of; kNoIndex: nothing.
+  std::uint32_t object_of(std::size_t face) const;
+
   const OddFaces& odd_faces() const noexcept { return odd_; }
   const OBJ::Report& report() const noexcept { return report_; }
 
@@ -77,6 +88,8 @@ class Scene {
   Mesh mesh_;
   std::vector<Material> materials_;
   std::vector<TextureImage> images_;
+  std::vector<std::string> objects_;
+  std::vector<ObjectRun> object_runs_;
   OBJ::Report report_;
   OddFaces odd_;
   std::vector<std::uint32_t> welded_;

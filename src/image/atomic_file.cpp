@@ -1,5 +1,4 @@
-#include "image/atomic_file.h"
-
+#include <facemap/atomic_file.h>
 #include <facemap/error.h>
 #include <facemap/image_file.h>
 #include <fcntl.h>
@@ -69,11 +68,16 @@ void AtomicFile::write(const void* bytes, std::size_t size) {
   }
 }
 
-void AtomicFile::commit() {
+void AtomicFile::finish() {
+  if (descriptor_ < 0) return;
   const int descriptor = descriptor_;
   descriptor_ = -1;
   // Some file systems report a full disk only when a file is closed.
   if (::close(descriptor) != 0 && errno != EINTR) fail("cannot write", errno);
+}
+
+void AtomicFile::commit() {
+  finish();
   if (temporary_.empty()) return;
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot rename the finished file", errno);
   temporary_.clear();

@@ -1,10 +1,10 @@
+#include <facemap/atomic_file.h>
 #include <facemap/error.h>
 
 #include <bit>
 #include <cstring>
 #include <string>
 
-#include "image/atomic_file.h"
 #include "image/plane.h"
 
 namespace facemap {
@@ -38,25 +38,6 @@ std::span<const std::byte> bytes_of(const PlaneView& plane) {
   return std::visit([](const auto& values) { return std::as_bytes(values); }, plane.values);
 }
 
-/// The plane. An image without it is an error that names the file.
-PlaneView plane_for(const std::filesystem::path& path, PlaneView (*plane_of)(const Image&), const Image& image) {
-  try {
-    return plane_of(image);
-  } catch (const Error& error) {
-    throw Error(path.string() + ": " + error.what());
-  }
-}
-
-/// Without a copy of the plane.
-void write_npy(const PlaneView& plane, const std::filesystem::path& path, NpyShape shape) {
-  const std::string header = npy_header(plane, shape);
-  const std::span<const std::byte> values = bytes_of(plane);
-  AtomicFile file(path);
-  file.write(header.data(), header.size());
-  file.write(values.data(), values.size());
-  file.commit();
-}
-
 }  // namespace
 
 std::vector<std::uint8_t> encode_npy(const PlaneView& plane, NpyShape shape) {
@@ -68,16 +49,19 @@ std::vector<std::uint8_t> encode_npy(const PlaneView& plane, NpyShape shape) {
   return bytes;
 }
 
-void write_ids_npy(const Image& image, const std::filesystem::path& path) {
-  write_npy(plane_for(path, id_plane, image), path, NpyShape::ByChannels);
-}
-
-void write_depths_npy(const Image& image, const std::filesystem::path& path) {
-  write_npy(plane_for(path, depth_plane, image), path, NpyShape::ByChannels);
-}
-
-void write_lights_npy(const Image& image, const std::filesystem::path& path) {
-  write_npy(plane_for(path, light_plane, image), path, NpyShape::AlwaysThree);
+void write_npy(const Image& image, Plane plane, const std::filesystem::path& path) {
+  PlaneView view;
+  try {
+    view = plane_view(image, plane);
+  } catch (const Error& error) {
+    throw Error(path.string() + ": " + error.what());
+  }
+  const std::string header = npy_header(view, NpyShape::ByChannels);
+  const std::span<const std::byte> values = bytes_of(view);  // written as they are, without a copy
+  AtomicFile file(path);
+  file.write(header.data(), header.size());
+  file.write(values.data(), values.size());
+  file.commit();
 }
 
 }  // namespace facemap

@@ -1,3 +1,4 @@
+#include <facemap/atomic_file.h>
 #include <facemap/error.h>
 #include <facemap/image.h>
 #include <png.h>
@@ -7,7 +8,6 @@
 #include <memory>
 #include <vector>
 
-#include "image/atomic_file.h"
 #include "image/pixel_deflate.h"
 #include "image/png_chunks.h"
 #include "image/srgb.h"

@@ -133,6 +133,7 @@ SurfaceLook MaterialTable::look(const SeenSurface& seen, FaceFrame& frame) const
   }
   const Entry* const entry = entry_of(seen.face);
   if (entry == nullptr) {
+    look.albedo = tint;
     look.reflection = blinn_phong(tint, DVector(0), 0);
     return look;
   }
@@ -143,6 +144,7 @@ SurfaceLook MaterialTable::look(const SeenSurface& seen, FaceFrame& frame) const
     look.normal = relief(*entry, spot, seen, frame);
   }
   const DVector diffuse = colour(entry->diffuse, spot, entry->material->diffuse) * tint;
+  look.albedo = diffuse;
   look.is_unlit = entry->material->is_unlit;
   if (look.is_unlit) {
     look.emission = diffuse;

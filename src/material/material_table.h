@@ -35,6 +35,7 @@ struct SeenSurface {
 /// What the surface is there.
 struct SurfaceLook {
   Reflection reflection;
+  DVector albedo{1};    ///< diffuse or base colour
   DVector normal{0};    ///< tilted by the material's relief
   DVector emission{0};  ///< of an unlit surface: its colour
   bool is_unlit = false;

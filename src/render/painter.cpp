@@ -18,9 +18,8 @@ Painter::Painter(const Camera& camera, std::span<const PointLight> lights, const
   const std::size_t pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
   const bool edges = options.sampling == Renderer::Sampling::Edges;
   image_.pixels.resize(pixels);
-  if (options.want_ids || edges) image_.ids.resize(pixels);
-  if (options.want_depths) image_.depths.resize(pixels);
-  if (options.want_lights || edges) image_.lights.resize(pixels * static_cast<std::size_t>(image_.light_bytes()));
+  if (options.planes.has(Plane::Id) || edges) image_.ids.resize(pixels);
+  if (options.planes.has(Plane::Lights) || edges) image_.lights.resize(pixels * static_cast<std::size_t>(image_.light_bytes()));
   for (int i = 0; i < executor.threads(); ++i) {
     workers_.push_back(std::make_unique<Worker>(camera, lights, options, materials));
   }
@@ -30,8 +29,8 @@ Image Painter::paint(Renderer::Statistics& statistics) {
   if (options_.sampling == Renderer::Sampling::Edges) {
     for_each_row(0, 0.5, [&](int y, Worker& worker) { paint_row(y, 1, worker); });
     for_each_row(0.5, 0.5, [&](int y, Worker& worker) { upsample_edges(y, worker); });
-    if (!options_.want_ids) image_.ids = {};
-    if (!options_.want_lights) image_.lights = {};
+    if (!options_.planes.has(Plane::Id)) image_.ids = {};
+    if (!options_.planes.has(Plane::Lights)) image_.lights = {};
   } else {
     for_each_row(0, 1, [&](int y, Worker& worker) { paint_row(y, options_.samples, worker); });
   }
@@ -58,7 +57,7 @@ void Painter::for_each_row(double done_before, double share,
 // Planes always hold the ray through the pixel's centre.
 void Painter::paint_row(int y, int samples, Worker& worker) {
   const bool centre_is_sampled = samples == 1;
-  const bool wants_planes = !image_.ids.empty() || !image_.depths.empty() || !image_.lights.empty();
+  const bool wants_planes = !image_.ids.empty() || !image_.lights.empty();
   for (int x = 0; x < image_.width; ++x) {
     const std::size_t pixel = index(x, y);
     if (!centre_is_sampled) image_.pixels[pixel] = mean_of_grid(x, y, samples, worker);
@@ -71,7 +70,6 @@ void Painter::paint_row(int y, int samples, Worker& worker) {
 
 void Painter::store_planes(std::size_t pixel, const Sample& sample) {
   if (!image_.ids.empty()) image_.ids[pixel] = sample.face;
-  if (!image_.depths.empty()) image_.depths[pixel] = sample.depth;
   if (!image_.lights.empty()) {
     std::copy(sample.lights.begin(), sample.lights.end(),
               image_.lights.begin() + static_cast<std::ptrdiff_t>(pixel * sample.lights.size()));

@@ -15,7 +15,7 @@
 namespace facemap {
 
 /// Fills an image from maps of faces, sample by sample: the loop over pixels, and which of them get more than one
-/// sample. Rows are tasks; each worker has a shader of its own.
+/// sample. Of the planes it fills ids and lights. Rows are tasks; each worker has a shader of its own.
 class Painter {
  public:
   /// `report` is called now and then with the fraction done; it may throw.

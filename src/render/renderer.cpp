@@ -12,6 +12,7 @@
 #include "parallel/executor.h"
 #include "render/cost_model.h"
 #include "render/painter.h"
+#include "render/planes.h"
 #include "render/stopwatch.h"
 #include "render/whole_picture.h"
 #include "simd/floating_point_mode.h"
@@ -83,14 +84,18 @@ struct Renderer::Request {
 };
 
 Image Renderer::render(const Progress& progress) {
-  return make({options_, true, [&](double fraction, const char* phase) {
-                 if (progress && !progress(fraction, phase)) throw Error("stopped");
-               }});
+  Options options = options_;
+  options.planes = asked_planes(options_.planes);
+  Image image = make({options, true, [&](double fraction, const char* phase) {
+                        if (progress && !progress(fraction, phase)) throw Error("stopped");
+                      }});
+  fill_planes(image);
+  return image;
 }
 
 Image Renderer::look(const Progress& progress) {
   Options options = options_;
-  options.want_ids = options.want_lights = true;
+  options.planes = {Plane::Id, Plane::Lights};
   options.sampling = Sampling::Grid;
   options.builder = Builder::Cover;
   options.normals = Normals::Flat;
@@ -137,6 +142,16 @@ Image Renderer::make(const Request& request) {
     for (const ShadowScratch& scratch : kept_->transposed.scratch) statistics_.map_bytes += scratch.memory_bytes();
   }
   return image;
+}
+
+void Renderer::fill_planes(Image& image) {
+  const FloatingPointMode mode;
+  const Stopwatch time;
+  const SampleGrid centres{SpaceVector::looking_at(view_.position, view_.look_at, view_.up),
+                           Projection(view_.projection, view_.field_angle, options_.width, options_.height)};
+  facemap::fill_planes({*scene_, centres, options_.normals == Normals::Smooth, kept_->materials.get(), kept_->executor},
+                       options_.planes, image);
+  statistics_.shade_ms += time.milliseconds();
 }
 
 void Renderer::load_materials() {

@@ -138,7 +138,6 @@ void Shader::shade(const MapPoint& point, double step, Sample& sample) {
   ++statistics_.camera_queries;
   const Camera::Hit hit = camera_.nearest(direction, &statistics_.camera_tests);
   sample.face = hit.face;
-  sample.depth = hit.depth;
   if (!hit) return;
 
   const Surface surface = surface_at(direction, hit);

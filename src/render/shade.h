@@ -15,7 +15,6 @@ namespace facemap {
 struct Sample {
   Color color;
   FaceId face = kNoFace;
-  float depth = 0;                   ///< infinity if no face is hit
   std::vector<std::uint8_t> lights;  ///< as Image::lights, one pixel
 };
 

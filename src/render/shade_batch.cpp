@@ -68,6 +68,13 @@ std::size_t ShadeBatch::take_smooth(const AskedPoints& points, std::size_t first
   return i;
 }
 
+void ShadeBatch::take(const std::uint32_t* samples, const std::uint32_t* faces, std::size_t count) {
+  rays_.count = count;
+  std::copy_n(samples, count, samples_);
+  std::copy_n(faces, count, face_ids_);
+  set_up();
+}
+
 void ShadeBatch::set_up() {
   slots_.assign(face_ids_, rays_.count, rays_.slots);
   set_up_rays();
@@ -188,6 +195,15 @@ void ShadeBatch::shade_white(const std::vector<simd::LightSource>& lights, bool 
   }
 }
 
+// Textures are filtered by the rays beside each.
+bool ShadeBatch::find_neighbours() {
+  if (materials_ == nullptr) return false;
+  const auto has_textures = [&](std::uint32_t face) { return materials_->has_textures(face); };
+  if (std::none_of(slots_.faces, slots_.faces + slots_.planes.count, has_textures)) return false;
+  neighbours_->find(table_.frame, samples_, rays_);
+  return true;
+}
+
 SeenSurface ShadeBatch::seen_surface(std::size_t i, bool has_neighbours) const {
   SeenSurface seen;
   seen.face = face_ids_[i];
@@ -203,9 +219,7 @@ SeenSurface ShadeBatch::seen_surface(std::size_t i, bool has_neighbours) const {
 // Point by point, in the words of Shader::material_radiance.
 void ShadeBatch::shade_materials(const std::vector<simd::LightSource>& lights, bool inverse_square,
                                  const Surroundings& surroundings, const std::uint8_t* masks, std::size_t stride) {
-  const auto has_textures = [&](std::uint32_t face) { return materials_->has_textures(face); };
-  const bool has_neighbours = std::any_of(slots_.faces, slots_.faces + slots_.planes.count, has_textures);
-  if (has_neighbours) neighbours_->find(table_.frame, samples_, rays_);
+  const bool has_neighbours = find_neighbours();
   for (std::size_t i = 0; i < rays_.count; ++i) {
     const SeenSurface seen = seen_surface(i, has_neighbours);
     const SurfaceLook look = materials_->look(seen, frame_);
@@ -216,6 +230,17 @@ void ShadeBatch::shade_materials(const std::vector<simd::LightSource>& lights, b
       lit.add(at(light.position), at(light.color), light.intensity, inverse_square);
     }
     store(lit.radiance(), points_.radiance, i);
+  }
+}
+
+void ShadeBatch::for_each_surface(const std::function<void(const ShadedSurface&)>& see) {
+  find_surfaces(some_smooth_);
+  const bool has_neighbours = find_neighbours();
+  for (std::size_t i = 0; i < rays_.count; ++i) {
+    ShadedSurface surface{samples_[i], seen_surface(i, has_neighbours), {}};
+    surface.look.normal = surface.seen.normal;
+    if (materials_ != nullptr) surface.look = materials_->look(surface.seen, frame_);
+    see(surface);
   }
 }
 

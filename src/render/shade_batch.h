@@ -4,6 +4,7 @@
 #include <facemap/scene.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -23,6 +24,13 @@ struct MovedPoint {
   std::uint32_t owner = 0;
 };
 
+/// What shading finds at the place that a sample sees.
+struct ShadedSurface {
+  std::uint32_t sample = 0;
+  SeenSurface seen;
+  SurfaceLook look;
+};
+
 /// Shades some points of a picture together: Shader::shade is the definition. Working memory of one thread.
 class ShadeBatch {
  public:
@@ -37,6 +45,9 @@ class ShadeBatch {
   /// looked at.
   std::size_t take_smooth(const AskedPoints& points, std::size_t first, std::size_t end);
 
+  /// Takes what these samples see, at most simd::kSeenBatch.
+  void take(const std::uint32_t* samples, const std::uint32_t* faces, std::size_t count);
+
   /// Adds the moved points among those taken. Throws Error if one is not finite.
   void find_moved(std::vector<MovedPoint>& moved);
 
@@ -50,6 +61,9 @@ class ShadeBatch {
              const std::uint8_t* masks, std::size_t stride);
   void store_colors(std::span<Color> colors) const;
 
+  /// For planes: calls see(surface) for each point taken.
+  void for_each_surface(const std::function<void(const ShadedSurface&)>& see);
+
  private:
   void set_up();
   void set_up_rays();
@@ -61,6 +75,7 @@ class ShadeBatch {
                    const std::uint8_t* masks, std::size_t stride);
   void shade_materials(const std::vector<simd::LightSource>& lights, bool inverse_square,
                        const Surroundings& surroundings, const std::uint8_t* masks, std::size_t stride);
+  bool find_neighbours();
   SeenSurface seen_surface(std::size_t i, bool has_neighbours) const;
 
   const Scene& scene_;

@@ -103,7 +103,7 @@ MovedPoints find_moved_points(const Scene& scene, const SampleGrid& grid, SeenPo
                      first = batch.take_smooth(seen.points, first, end);
                      const std::size_t begin = found[chunk].points.size();
                      batch.find_moved(found[chunk].points);
-                     add_masks(batch, begin, sources, all, options.want_lights, found[chunk]);
+                     add_masks(batch, begin, sources, all, options.planes.has(Plane::Lights), found[chunk]);
                    }
                  });
   return join(found, executor, seen);

@@ -2,12 +2,8 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstring>
-#include <limits>
 
-#include "map/face_planes.h"
-#include "math/exact_sign.h"
 #include "picture/hidden_points.h"
 #include "picture/lit_points.h"
 #include "picture/moved_points.h"
@@ -91,26 +87,6 @@ std::vector<Color> mean_of_samples(const SampleGrid& grid, const std::vector<Col
     }
   });
   return means;
-}
-
-// As Camera::nearest gives it.
-std::vector<float> depths_of(const Scene& scene, const SampleGrid& grid, const std::vector<FaceId>& faces,
-                             const Executor& executor) {
-  const auto columns = static_cast<std::size_t>(grid.columns());
-  std::vector<float> depths(faces.size(), std::numeric_limits<float>::infinity());
-  executor.for_each(static_cast<std::size_t>(grid.rows()), [&](std::size_t row, int) {
-    for (std::size_t column = 0; column < columns; ++column) {
-      const FaceId face = faces[row * columns + column];
-      if (face == kNoFace) continue;
-      const Vector& K = grid.frame.position();
-      const Vector d = grid.direction(static_cast<int>(column), static_cast<int>(row));
-      const Triangle triangle = triangle_of(scene, static_cast<std::uint32_t>(face));
-      const TruePoint point{K, d, triangle, side(triangle, K)};
-      const double length = std::sqrt(double(d.x) * d.x + double(d.y) * d.y + double(d.z) * d.z);
-      depths[row * columns + column] = static_cast<float>(sharp_ray_parameter(point, ray_parameter(point)) * length);
-    }
-  });
-  return depths;
 }
 
 }  // namespace
@@ -245,17 +221,16 @@ Image WholePicture::empty_image(int per_side) const {
 }
 
 // The planes that are wanted of what a band sees.
-void WholePicture::put_planes(Seen&& seen, bool ids, bool depths, bool lights, Image& image) const {
+void WholePicture::put_planes(Seen&& seen, Image& image) const {
   const std::size_t columns = static_cast<std::size_t>(image.width);
   const std::size_t count = columns * static_cast<std::size_t>(image.height);
   const std::size_t first = columns * static_cast<std::size_t>(seen.grid.first_row);
-  if (lights) {
+  if (options_.planes.has(Plane::Lights)) {
     image.lights.resize(count * seen.points.stride);
     put_masks(seen.points, image.lights.data() + first * seen.points.stride);
   }
   seen.points = {};
-  if (depths) put_band(depths_of(scene_, seen.grid, seen.faces, executor_), first, count, image.depths);
-  if (ids) put_band(std::move(seen.faces), first, count, image.ids);
+  if (options_.planes.has(Plane::Id)) put_band(std::move(seen.faces), first, count, image.ids);
 }
 
 Image WholePicture::look() {
@@ -263,7 +238,7 @@ Image WholePicture::look() {
   const std::vector<SampleGrid> grids = bands(options_.samples);
   band_count_ = grids.size();
   for (const SampleGrid& grid : grids) {
-    put_planes(see(grid), true, false, true, image);
+    put_planes(see(grid), image);
     ++bands_done_;
   }
   return image;
@@ -273,7 +248,7 @@ Image WholePicture::paint() {
   paints_ = true;
   Image image = empty_image(1);
   const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-  const bool wants_planes = options_.want_ids || options_.want_depths || options_.want_lights;
+  const bool wants_planes = !options_.planes.empty();
   // Planes always hold the ray through the pixel's centre.
   const bool centres_are_sampled = options_.samples == 1;
   const std::vector<SampleGrid> grids = bands(options_.samples);
@@ -291,14 +266,14 @@ Image WholePicture::paint() {
              static_cast<std::size_t>(grid.first_row / options_.samples) * static_cast<std::size_t>(image.width),
              pixels, image.pixels);
     if (wants_planes && centres_are_sampled) {
-      put_planes(std::move(seen), options_.want_ids, options_.want_depths, options_.want_lights, image);
+      put_planes(std::move(seen), image);
     }
     statistics_.shade_ms += shade_time.milliseconds();
     ++bands_done_;
   }
   paints_ = false;
   for (const SampleGrid& grid : centres) {
-    put_planes(see(grid), options_.want_ids, options_.want_depths, options_.want_lights, image);
+    put_planes(see(grid), image);
     ++bands_done_;
   }
   report_(1, "shade");

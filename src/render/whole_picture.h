@@ -22,7 +22,7 @@ struct TransposedState {
 };
 
 /// All samples of a picture at once, or of bands of its rows: the camera's faces by the transposed way, the lights' by
-/// either. Gives the planes and colours that Painter gives. Call paint() or look() once.
+/// either. Gives the colours and the planes, ids and lights, that Painter gives. Call paint() or look() once.
 class WholePicture {
  public:
   /// Called now and then with the fraction done and the phase's name; it may throw.
@@ -47,7 +47,7 @@ class WholePicture {
   void prepare_lights(const SampleGrid& grid, const MovedPoints& moved, SeenPoints& seen);
   void ask_lights(const SampleGrid& grid, SeenPoints& seen);
   Image empty_image(int per_side) const;
-  void put_planes(Seen&& seen, bool ids, bool depths, bool lights, Image& image) const;
+  void put_planes(Seen&& seen, Image& image) const;
   void report(double share, const char* phase);
 
   const Scene& scene_;

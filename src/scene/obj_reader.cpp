@@ -115,8 +115,10 @@ void ObjReader::read_other_statement(const char* at) {
     read_smoothing_group(at);
   } else if (keyword == "o") {
     ++model_.report.objects;
+    objects_.begin_object(rest_of_line(at), next_triangle_);
   } else if (keyword == "g") {
     ++model_.report.groups;
+    objects_.begin_group(rest_of_line(at), next_triangle_);
   } else {
     ignore(keyword);
   }
@@ -317,6 +319,7 @@ ObjModel ObjReader::finish() {
   mtl_.resolve(model_.mesh.triangle_materials, warnings_);
   model_.materials = std::move(mtl_.materials());
   model_.images = std::move(mtl_.images());
+  objects_.take(model_.objects, model_.object_runs);
   warnings_.append_to(model_.report.warnings);
   model_.report.warnings.insert(model_.report.warnings.end(), mtl_.warnings().begin(), mtl_.warnings().end());
   return std::move(model_);

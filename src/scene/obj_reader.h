@@ -17,6 +17,7 @@
 #include "scene/obj_faces.h"
 #include "scene/obj_lines.h"
 #include "scene/obj_materials.h"
+#include "scene/obj_objects.h"
 #include "scene/obj_warnings.h"
 #include "scene/smooth_normals.h"
 
@@ -27,6 +28,8 @@ struct ObjModel {
   Mesh mesh;
   std::vector<Material> materials;
   std::vector<TextureImage> images;
+  std::vector<std::string> objects;  ///< names
+  std::vector<ObjectRun> object_runs;
   OBJ::Report report;
   std::vector<SmoothingRun> smoothing;
 };
@@ -90,6 +93,7 @@ class ObjReader {
   std::size_t next_triangle_ = 0;  ///< the first that comes after it; for statements that are no faces
   ObjWarnings warnings_;
   ObjMaterials mtl_;
+  ObjObjects objects_;
   ObjFaces faces_;
   std::optional<Executor> executor_;  ///< if there are chunks
   ObjChunks chunks_;

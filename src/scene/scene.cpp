@@ -39,6 +39,18 @@ OBJ::Report report_of(const Mesh& mesh, std::size_t objects, std::vector<std::st
   return report;
 }
 
+std::vector<ObjectRun> runs_of(const std::vector<std::uint32_t>& objects, std::size_t faces, std::size_t count) {
+  if (!objects.empty() && objects.size() != faces) throw Error("the model has not one object for each triangle");
+  std::vector<ObjectRun> runs;
+  for (std::size_t face = 0; face < objects.size(); ++face) {
+    if (objects[face] >= count && objects[face] != kNoIndex) {
+      throw Error("object " + std::to_string(objects[face]) + " of " + std::to_string(count));
+    }
+    if (runs.empty() || runs.back().object != objects[face]) runs.push_back({face, objects[face]});
+  }
+  return runs;
+}
+
 constexpr TextureUse Material::*kMaps[] = {
     &Material::diffuse_map,   &Material::opacity_map,  &Material::specular_map,
     &Material::shininess_map, &Material::emission_map, &Material::metallic_map,
@@ -71,6 +83,8 @@ Scene::Scene(Mesh mesh, std::vector<Material> materials, int threads)
 Scene::Scene(Model model, int threads)
     : Scene(std::move(model.mesh), std::move(model.materials), std::move(model.images), {}, threads) {
   report_ = report_of(mesh_, model.objects.size(), std::move(model.warnings));
+  object_runs_ = runs_of(model.triangle_objects, face_count(), model.objects.size());
+  objects_ = std::move(model.objects);
 }
 
 Scene::Scene(Mesh mesh, std::vector<Material> materials, std::vector<TextureImage> images,
@@ -85,6 +99,13 @@ Scene::Scene(Mesh mesh, std::vector<Material> materials, std::vector<TextureImag
     if (task == 0 && !smoothing.empty()) add_smooth_normals(mesh_, smoothing);
     if (task == 1) examine_faces(executor);
   });
+}
+
+std::uint32_t Scene::object_of(std::size_t face) const {
+  const auto next =
+      std::upper_bound(object_runs_.begin(), object_runs_.end(), face,
+                       [](std::size_t wanted, const ObjectRun& run) { return wanted < run.first_triangle; });
+  return next == object_runs_.begin() ? kNoIndex : std::prev(next)->object;
 }
 
 void Scene::examine_faces(const Executor& executor) {
@@ -104,6 +125,8 @@ Scene Scene::load(const std::filesystem::path& path, int threads) {
     ObjModel model = load_obj(file, path, limits);
     Scene scene(std::move(model.mesh), std::move(model.materials), std::move(model.images), model.smoothing, threads);
     scene.report_ = std::move(model.report);
+    scene.objects_ = std::move(model.objects);
+    scene.object_runs_ = std::move(model.object_runs);
     return scene;
   }
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";

@@ -8,7 +8,9 @@ namespace {
 class Compare : public Program {
  protected:
   void write_png(const std::string& name, int changed = 0, std::uint32_t levels = 0, int width = 10) const {
-    facemap::Image image{width, 10, {}, {}, {}, {}, 0};
+    facemap::Image image;
+    image.width = width;
+    image.height = 10;
     for (int i = 0; i < width * 10; ++i)
       image.pixels.push_back(facemap::Color::from_24_bit(0x646464 + (i < changed ? levels << 16 : 0)));
     facemap::write_png(image, folder_ / name);

@@ -41,7 +41,8 @@ TEST_F(Program, FindsOutBeforeTheWorkThatAnOutputCannotBeWritten) {
                "absent/id.npy: cannot write: there is no folder absent");
   expect_error(run_shell("mkdir folder.png; \"$facemap\" " + std::string(kLongRender) + "-o folder.png"), 1,
                "folder.png: cannot write: it is a folder");
-  expect_error(run(std::string(kLongRender) + "-o a.jpg"), 2, "a.jpg: pictures are written as PNG; call it .png");
+  expect_error(run(std::string(kLongRender) + "-o a.tiff"), 2,
+               "a.tiff: no format is known by the name .tiff; known are .png, .jpg, .jpeg, .exr, .pfm, .npy");
   expect_error(run("scene chessboard -o absent/a.obj"), 1, "absent/a.obj: cannot write: there is no folder absent");
   if (::geteuid() == 0) {
     std::printf("the folder without write permission: skipped, root may write anywhere\n");

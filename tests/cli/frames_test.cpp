@@ -80,7 +80,7 @@ TEST_F(Program, FramesNeedNamesOfTheirOwn) {
   expect_error(run(turn + "-o a{n}.png --aov id=id.npy"), 2,
                "id.npy: the names of 3 pictures need {n}, the picture's number, such as id_{n}.npy");
   expect_error(run(turn + "-o -"), 2, "-o -: standard output takes one picture, not 3");
-  expect_error(run(turn + "-o {n}.x --aov id={n}.x"), 2, "0.x: two outputs name this file");
+  expect_error(run(turn + "-o {n}.npy --aov id={n}.npy"), 2, "0.npy: two outputs name this file");
   expect_error(run("render cube.obj --turntable 12 -o a{n}1.png --aov id=a0{n}.png"), 2,
                "a001.png: two outputs name this file");
   expect_error(run(turn + "-o absent/{n}.png"), 1, "absent/0.png: cannot write: there is no folder absent");

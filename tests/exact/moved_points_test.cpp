@@ -181,7 +181,7 @@ TEST(MovedPoints, PicturesOfSolidsAreThoseOfTheLists) {
     Renderer::Options options;
     options.width = options.height = random.between(20, 60);
     options.threads = random.between(1, 3);
-    options.want_lights = random.chance(0.7);
+    if (random.chance(0.7)) options.planes.add(Plane::Lights);
     if (random.chance(0.5)) options.light_maps = Renderer::LightMaps::Keep;
     const auto transposed = pictures(scene, views, lights, options, Renderer::Strategy::Transposed);
     const auto by_lists = pictures(scene, views, lights, options, Renderer::Strategy::Lists);

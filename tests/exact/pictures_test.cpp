@@ -149,7 +149,7 @@ class Picture {
     Renderer::Options options;
     options.width = options.height = side;
     options.normals = Renderer::Normals::Flat;  // smooth ones move the points that are asked
-    options.want_ids = options.want_depths = options.want_lights = true;
+    options.planes = {Plane::Id, Plane::Depth, Plane::Lights};
     return Renderer(shot.scene, shot.view, shot.lights, options).render();
   }
 

@@ -23,7 +23,7 @@ TEST(FloatingPointMode, AnswersAreTheSameInACallersHostileModeAndTheModeIsKept) 
   view.up = {0, 0, -1};
   facemap::Renderer::Options options;
   options.width = options.height = 24;
-  options.want_ids = options.want_depths = options.want_lights = true;
+  options.planes = {facemap::Plane::Id, facemap::Plane::Depth, facemap::Plane::Lights};
   const std::vector<facemap::Light> lights{{{s, 3 * s, 0}}};
   const facemap::Image expected = facemap::Renderer(scene, view, lights, options).render();
 

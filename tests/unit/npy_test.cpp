@@ -60,21 +60,21 @@ Image make_image() {
 }
 
 TEST_F(Npy, WritesIds) {
-  write_ids_npy(make_image(), path_);
+  facemap::write_npy(make_image(), facemap::Plane::Id, path_);
   read();
   EXPECT_EQ(dictionary_, "{'descr': '<i4', 'fortran_order': False, 'shape': (2, 3), }");
   EXPECT_EQ(values<std::int32_t>(), make_image().ids);
 }
 
 TEST_F(Npy, WritesDepths) {
-  write_depths_npy(make_image(), path_);
+  facemap::write_npy(make_image(), facemap::Plane::Depth, path_);
   read();
   EXPECT_EQ(dictionary_, "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }");
   EXPECT_EQ(values<float>(), make_image().depths);
 }
 
 TEST_F(Npy, WritesLightsWithTwoBytesForNineLights) {
-  write_lights_npy(make_image(), path_);
+  facemap::write_npy(make_image(), facemap::Plane::Lights, path_);
   read();
   EXPECT_EQ(dictionary_, "{'descr': '|u1', 'fortran_order': False, 'shape': (2, 3, 2), }");
   EXPECT_EQ(values<std::uint8_t>(), make_image().lights);
@@ -107,9 +107,10 @@ TEST_F(Npy, WritesPlanesOfAnyTypeAndDepth) {
 TEST_F(Npy, RefusesAPlaneThatWasNotAskedFor) {
   Image image = make_image();
   image.ids.clear();
-  EXPECT_EQ(error_of([&] { write_ids_npy(image, path_); }), path_.string() + ": the image has no plane of ids");
+  EXPECT_EQ(error_of([&] { facemap::write_npy(image, facemap::Plane::Id, path_); }),
+            path_.string() + ": the image has no plane of id");
   EXPECT_FALSE(fs::exists(path_));
-  EXPECT_THROW(write_depths_npy(image, "/dev/full"), facemap::Error);
+  EXPECT_THROW(facemap::write_npy(image, facemap::Plane::Depth, "/dev/full"), facemap::Error);
 }
 
 }  // namespace

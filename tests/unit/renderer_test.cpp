@@ -11,6 +11,7 @@ using facemap::Image;
 using facemap::kNoFace;
 using facemap::Light;
 using facemap::Mesh;
+using facemap::Plane;
 using facemap::Renderer;
 using facemap::Scene;
 using facemap::Vector;
@@ -37,7 +38,7 @@ View from_above() {
 Renderer::Options small(int size = 33) {
   Renderer::Options options;
   options.width = options.height = size;
-  options.want_ids = options.want_depths = options.want_lights = true;
+  options.planes = {Plane::Id, Plane::Depth, Plane::Lights};
   return options;
 }
 
@@ -330,10 +331,10 @@ TEST(Renderer, LightsThatTheShadingNormalIsTurnedFromAddNothing) {
   view.look_at = {0, 0, 0};
   const std::vector<Light> lights{{{1, 4, 2}}, {{6, 3, -1}}, {{-2, -4, 0}}, {{-9, 1, 3}}};
   Renderer::Options options = small(97);
-  options.want_lights = false;
+  options.planes.remove(Plane::Lights);
   Renderer without(scene, view, lights, options);
   const Image colours = without.render();
-  options.want_lights = true;
+  options.planes.add(Plane::Lights);
   Renderer with(scene, view, lights, options);
   EXPECT_EQ(with.render().pixels, colours.pixels);
   EXPECT_LT(without.statistics().light_queries, with.statistics().light_queries);

@@ -149,7 +149,7 @@ Setting make_setting(Random& random, bool has_materials) {
     setting.options.sky_up = make_light_colour(random);
     setting.options.up = Vector(random.direction());
   }
-  setting.options.want_lights = random.chance(0.5);  // else lights that add nothing are not asked
+  if (random.chance(0.5)) setting.options.planes.add(Plane::Lights);  // else lights that add nothing are not asked
   return setting;
 }
 
@@ -222,7 +222,7 @@ void expect_same(const Setting& setting, const Expected& expected, const Executo
   ask_lights(setting, expected.lights, moved, seen);
   std::vector<Color> colors(setting.grid.count(), setting.options.background);
   shade_points(setting.scene, setting.grid, seen, setting.lights, setting.options, executor, colors, materials);
-  for (std::size_t i = 0; setting.options.want_lights && i < seen.points.size(); ++i) {
+  for (std::size_t i = 0; setting.options.planes.has(Plane::Lights) && i < seen.points.size(); ++i) {
     const std::vector<std::uint8_t>& lights = expected.samples[seen.points.samples[i]].lights;
     for (std::size_t byte = 0; byte < seen.stride; ++byte) {
       ASSERT_EQ(seen.masks[i * seen.stride + byte], lights[byte]) << "sample " << seen.points.samples[i];

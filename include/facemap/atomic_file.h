@@ -18,7 +18,13 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   void write(const void* bytes, std::size_t size);
+
+  /// Nothing more will be written: what a disk says only now is thrown here, and commit() has nothing to do but rename.
+  void finish();
   void commit();
+
+  /// The file that commit() renames; empty if there is none, or no more.
+  const std::filesystem::path& temporary() const noexcept { return temporary_; }
 
  private:
   void open_beside();
