@@ -19,7 +19,8 @@ Painter::Painter(const Camera& camera, std::span<const PointLight> lights, const
   const bool edges = options.sampling == Renderer::Sampling::Edges;
   image_.pixels.resize(pixels);
   if (options.planes.has(Plane::Id) || edges) image_.ids.resize(pixels);
-  if (options.planes.has(Plane::Lights) || edges) image_.lights.resize(pixels * static_cast<std::size_t>(image_.light_bytes()));
+  if (options.planes.has(Plane::Lights) || edges)
+    image_.lights.resize(pixels * static_cast<std::size_t>(image_.light_bytes()));
   for (int i = 0; i < executor.threads(); ++i) {
     workers_.push_back(std::make_unique<Worker>(camera, lights, options, materials));
   }

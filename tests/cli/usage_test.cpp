@@ -93,8 +93,7 @@ TEST_F(Program, RefusesValuesThatMakeNoSense) {
       {"--aov id", "--aov id: only an EXR picture has layers; give it a file: id=FILE"},
       {"--aov id=", "--aov: 'id=' names no file"},
       {"--aov uv=uv.pfm", "uv.pfm: PFM holds one or three floats a pixel, which uv is not; write .npy or .exr"},
-      {"--aov id=id.hdr",
-       "id.hdr: no format is known by the name .hdr; known are .png, .jpg, .jpeg, .exr, .pfm, .npy"},
+      {"--aov id=id.hdr", "id.hdr: no format is known by the name .hdr; known are .png, .jpg, .jpeg, .exr, .pfm, .npy"},
       {"--aov id=-", "--aov: standard output takes the picture alone"},
       {"--aov range=a.npy",
        "--aov: 'range' is not id, depth, z, position, normal, face-normal, albedo, uv, object, material, lights or "

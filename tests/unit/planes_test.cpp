@@ -1,6 +1,7 @@
 #include <facemap/renderer.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -263,6 +264,56 @@ TEST(Planes, AreTheSameByEachStrategyAndForEachNumberOfSamplesAndThreads) {
     const Image plain = Renderer(scene, view, lights, options).render();
     EXPECT_EQ(plain.pixels, first.pixels) << "planes change nothing";
     expect_same_planes(plain, Image());
+  }
+}
+
+/// A cube about the origin, seen from there.
+Mesh room() {
+  Mesh mesh;
+  for (int i = 0; i < 8; ++i) mesh.positions.push_back({i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1});
+  for (const Corners& c : {Corners{0, 1, 3},
+                           {0, 3, 2},
+                           {4, 5, 7},
+                           {4, 7, 6},
+                           {0, 1, 5},
+                           {0, 5, 4},
+                           {2, 3, 7},
+                           {2, 7, 6},
+                           {0, 2, 6},
+                           {0, 6, 4},
+                           {1, 3, 7},
+                           {1, 7, 5}}) {
+    mesh.triangles.push_back(c);
+  }
+  return mesh;
+}
+
+TEST(Planes, AtTheRimOfAWideFieldDepthsAgreeWithGeometry) {
+  const Scene scene(room());
+  View view;
+  view.position = {0, 0, 0};
+  view.look_at = {0, 0, -1};
+  view.field_angle = 220 * M_PI / 180;
+  for (const auto strategy : {Renderer::Strategy::Lists, Renderer::Strategy::Transposed}) {
+    Renderer::Options options = with_planes({Plane::Depth, Plane::Z, Plane::Position});
+    options.strategy = strategy;
+    const Image image = Renderer(scene, view, {{{0, 0.5f, 0}}}, options).render();
+    int behind = 0;
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        // The angle to the sight is proportional to the distance from the picture's middle.
+        const double right = x + 0.5 - kSide / 2.0, up = kSide / 2.0 - y - 0.5, radius = std::hypot(right, up);
+        const double angle = radius * view.field_angle / kSide;
+        const DVector ray(std::sin(angle) * right / radius, std::sin(angle) * up / radius, -std::cos(angle));
+        const double range = 1 / std::max({std::fabs(ray.x), std::fabs(ray.y), std::fabs(ray.z)});
+        const auto i = static_cast<std::size_t>(y * kSide + x);
+        EXPECT_NEAR(image.depths[i], range, kRounding * range);
+        EXPECT_NEAR(image.zs[i], range * std::cos(angle), kRounding * range);
+        expect_near(image.positions[i], ray * range, kRounding * range);
+        behind += image.zs[i] < 0;
+      }
+    }
+    EXPECT_GT(behind, kSide * 4) << "the rim is there";
   }
 }
 
