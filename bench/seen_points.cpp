@@ -51,7 +51,7 @@ struct Picture {
     }
     Camera::Options options;
     options.projection = kind;
-    options.field_angle = grid.projection.field_angle();
+    options.field_angle = grid.lens.projection()->field_angle();
     const Camera camera(scene, grid.frame, options);
     for (int row = 0; row < kSize; ++row) {
       for (int column = 0; column < kSize; ++column) {

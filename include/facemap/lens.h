@@ -74,6 +74,9 @@ class Lens {
   static Lens opencv_pinhole(const CameraMatrix& matrix, const PinholeDistortion& distortion, int width, int height);
   static Lens opencv_fisheye(const CameraMatrix& matrix, const FisheyeDistortion& distortion, int width, int height);
 
+  /// The lens of a map's projection, its own kind.
+  Lens(const Projection& projection);
+
   // Copies alone, so that there is never an empty Lens; a copy shares what it holds.
   Lens(const Lens&) = default;
   Lens& operator=(const Lens&) = default;
@@ -81,6 +84,9 @@ class Lens {
   LensKind kind() const noexcept;
   int width() const noexcept;   ///< pixels
   int height() const noexcept;  ///< pixels
+
+  /// What a surface or plane lens is made of; null for the others.
+  const Projection* projection() const noexcept;
 
   /// Unit local direction that a place shows. None beyond the lens's field, and for panoramas and cubes none outside of
   /// the picture; the others go on around it, to 2^30 pixels.

@@ -3,6 +3,7 @@
 #include <facemap/camera.h>
 #include <facemap/color.h>
 #include <facemap/image.h>
+#include <facemap/lens.h>
 #include <facemap/light.h>
 #include <facemap/plane.h>
 #include <facemap/point_light.h>
@@ -11,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,17 @@ struct View {
   Vector up{0, 1, 0};
   double field_angle = 0.87266462599716477;  ///< radians (50 degrees)
   ProjectionKind projection = ProjectionKind::Surface;
+  std::optional<Lens> lens = std::nullopt;  ///< in place of these two; it must be for the picture's size
+
+  /// Orthographic: all rays along the sight, from the plane through `position` on; in place of the three above. What
+  /// lies behind that plane is seen too, at a depth below 0.
+  bool is_parallel = false;
+  double height = 2;  ///< world units that such a picture shows, bottom to top
+};
+
+/// Some pixels of a picture, from its upper left corner.
+struct PixelBox {
+  int x = 0, y = 0, width = 0, height = 0;
 };
 
 /// A view in which the scene's bounding sphere just fits the field angle (50 degrees), from direction (0.5, 0.6, 1).
@@ -59,9 +72,10 @@ class Renderer {
     int width = 1024;   ///< pixels
     int height = 1024;  ///< pixels
     Sampling sampling = Sampling::Grid;
-    int samples = 1;                    ///< a side of the grid in a pixel, 1..16
-    Normals normals = Normals::Smooth;  ///< smooth where the file gives normals or smoothing groups
-    bool shadow_terminator_fix = true;  ///< Hanika 2021; matters with smooth normals only
+    int samples = 1;                              ///< a side of the grid in a pixel, 1..16
+    std::optional<PixelBox> crop = std::nullopt;  ///< only these of the picture's pixels are made: the image is theirs
+    Normals normals = Normals::Smooth;            ///< smooth where the file gives normals or smoothing groups
+    bool shadow_terminator_fix = true;            ///< Hanika 2021; matters with smooth normals only
     Falloff falloff = Falloff::Constant;
     Color background{0, 0, 0};  ///< linear RGB
     bool materials = true;      ///< the model's materials, textures and vertex colours; else all is white

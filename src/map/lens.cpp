@@ -37,12 +37,14 @@ void check_picture_size(int width, int height) {
 
 Lens::Lens(std::shared_ptr<const LensModel> model) : model_(std::move(model)) {}
 
+Lens::Lens(const Projection& projection) : Lens(projection_lens(projection)) {}
+
 Lens Lens::surface(double field_angle, int width, int height) {
-  return Lens(projection_lens(Projection(ProjectionKind::Surface, field_angle, width, height)));
+  return Projection(ProjectionKind::Surface, field_angle, width, height);
 }
 
 Lens Lens::plane(double field_angle, int width, int height) {
-  return Lens(projection_lens(Projection(ProjectionKind::Plane, field_angle, width, height)));
+  return Projection(ProjectionKind::Plane, field_angle, width, height);
 }
 
 Lens Lens::equirectangular(int width, int height) {
@@ -65,6 +67,7 @@ Lens Lens::opencv_fisheye(const CameraMatrix& matrix, const FisheyeDistortion& d
 LensKind Lens::kind() const noexcept { return model_->kind(); }
 int Lens::width() const noexcept { return model_->width(); }
 int Lens::height() const noexcept { return model_->height(); }
+const Projection* Lens::projection() const noexcept { return model_->projection(); }
 int Lens::piece_width() const noexcept { return model_->piece_width(); }
 int Lens::piece_height() const noexcept { return model_->piece_height(); }
 double Lens::largest_angle() const noexcept { return model_->largest_angle(); }

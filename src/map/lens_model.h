@@ -30,6 +30,7 @@ class LensModel {
   virtual double angle_error() const = 0;
   virtual int piece_width() const { return width_; }
   virtual int piece_height() const { return height_; }
+  virtual const Projection* projection() const { return nullptr; }
 
  private:
   LensKind kind_;

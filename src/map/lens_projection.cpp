@@ -29,6 +29,7 @@ class ProjectionLens final : public LensModel {
   double largest_angle() const override { return elementary::kPi / (kind() == LensKind::Surface ? 1 : 2); }
   double pixel_angle(const MapPoint&, const MapPoint&) const override { return projection_.texel_angle(); }
   double angle_error() const override { return Projection::kMapError; }
+  const Projection* projection() const override { return &projection_; }
 
  private:
   Projection projection_;

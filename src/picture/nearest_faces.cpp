@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "math/elementary.h"
+#include "picture/nearest_lens.h"
 #include "picture/nearest_raster.h"
 #include "picture/nearest_tiles.h"
 #include "picture/nearest_view.h"
@@ -33,7 +34,7 @@ Camera::Options wide_enough(const Projection& projection) {
 
 // The paper's way, one ray after the other.
 NearestFaces ask_lists(const Scene& scene, const SampleGrid& grid, const Executor& executor, Counters* counters) {
-  const Camera camera(scene, grid.frame, wide_enough(grid.projection));
+  const Camera camera(scene, grid.frame, wide_enough(*grid.lens.projection()));
 
   NearestFaces nearest;
   nearest.faces.resize(grid.count());
@@ -62,10 +63,12 @@ NearestFaces ask_lists(const Scene& scene, const SampleGrid& grid, const Executo
 NearestFaces find_nearest_faces(const Scene& scene, const SampleGrid& grid, const Executor& executor,
                                 Counters* counters) {
   const FloatingPointMode mode;
+  const Projection* projection = grid.lens.projection();
+  if (projection == nullptr) return draw_lens_view(scene, grid, executor, counters);
   if (const std::optional<PlaneView> view = plane_view(scene, grid)) {
     return draw_plane_view(scene, grid, *view, executor, counters);
   }
-  if (grid.projection.kind() == ProjectionKind::Surface) return draw_surface_view(scene, grid, executor, counters);
+  if (projection->kind() == ProjectionKind::Surface) return draw_surface_view(scene, grid, executor, counters);
   return ask_lists(scene, grid, executor, counters);
 }
 

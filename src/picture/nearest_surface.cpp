@@ -14,7 +14,6 @@ namespace facemap {
 namespace {
 
 constexpr double kFloatHalfUlp = 0x1p-24;
-constexpr double kDoubleHalfUlp = 0x1p-53;
 
 // A tile's samples lie within this of each other (radians, along a side), so that its plane is little bent.
 constexpr double kLargestTileAngle = 0.25;
@@ -33,29 +32,10 @@ constexpr double kLargestPyramidAngle = 1.4;
 // and for roundings of the angle and of (u, v) themselves.
 constexpr double kDirectionRoundings = 12 * kFloatHalfUlp, kPointRoundings = 8 * kFloatHalfUlp;
 
-void store(const DVector& axis, double length, double row[3]) {
-  row[0] = axis.x * length;
-  row[1] = axis.y * length;
-  row[2] = axis.z * length;
-}
-
-void set_axes(const DVector& x, const DVector& y, const DVector& z, double f, double unit, simd::PlaneFrame& frame) {
-  store(x, f * unit, frame.rows[0]);
-  store(y, f * unit, frame.rows[1]);
-  store(z, unit, frame.rows[2]);
-  frame.unit = unit;
-}
-
-void set_errors(double f, double reach, double shift, simd::PlaneFrame& frame) {
-  frame.shift = shift;
-  frame.value_error = 64 * kDoubleHalfUlp * f * (2 * reach + f);
-  frame.determinant_error = 128 * kDoubleHalfUlp * f * f;
-}
-
 // The map's centre is at 0; in texels, as Projection has them. Points without a direction are drawn to the rim.
 DVector centre_direction(const SampleGrid& grid, const SurfaceTile& tile) {
-  const Projection& projection = grid.projection;
-  double x = (tile.first_column + tile.columns * 0.5) / grid.per_side - projection.width() * 0.5;
+  const Projection& projection = *grid.lens.projection();
+  double x = (grid.first_column + tile.first_column + tile.columns * 0.5) / grid.per_side - projection.width() * 0.5;
   double y = (grid.first_row + tile.first_row + tile.rows * 0.5) / grid.per_side - projection.height() * 0.5;
   const double largest = elementary::kPi / projection.texel_angle() * (1 - 0x1p-40), r = std::sqrt(x * x + y * y);
   if (r > largest) {
@@ -68,8 +48,8 @@ DVector centre_direction(const SampleGrid& grid, const SurfaceTile& tile) {
 }  // namespace
 
 SurfaceView::SurfaceView(const Scene& scene, const SampleGrid& grid) {
-  const double half_columns = grid.columns() * 0.5, half_rows = grid.rows_of_picture() * 0.5;
-  sample_angle = grid.projection.texel_angle() / grid.per_side;
+  const double half_columns = grid.columns_of_picture() * 0.5, half_rows = grid.rows_of_picture() * 0.5;
+  sample_angle = grid.lens.projection()->texel_angle() / grid.per_side;
   const double f = 1 / sample_angle;
   const SpaceVector& frame = grid.frame;
   unit = unit_for(length(scene.centre() - DVector(frame.position())) + scene.bounding_radius());
@@ -103,7 +83,7 @@ SurfaceView::SurfaceView(const Scene& scene, const SampleGrid& grid) {
   v.slack_u = v.slack_v = has_pyramid ? float_above(16 * kFloatHalfUlp * (f + edge)) : kNever;
   v.slack_z = has_pyramid ? float_above(16 * kFloatHalfUlp) : kNever;
 
-  boxes.first_column = static_cast<float>(0.5 - half_columns);
+  boxes.first_column = static_cast<float>(grid.first_column + 0.5 - half_columns);
   boxes.first_row = static_cast<float>(grid.first_row + 0.5 - half_rows);
   const double angle_error = kDirectionRoundings * stretch + kPointRoundings * farthest + simd::kAngleError;
   boxes.margin =
@@ -114,7 +94,7 @@ SurfaceView::SurfaceView(const Scene& scene, const SampleGrid& grid) {
   boxes.bulge = float_above(bulge(1, farthest) * sample_angle * (1 + 0x1p-6));
   boxes.longest_squared = static_cast<float>(kLongestEdge * kLongestEdge * f * f * (1 - 0x1p-6));
 
-  while (tile_side < kLargestTile && 2 * tile_side * sample_angle <= kLargestTileAngle) tile_side *= 2;
+  while (tile_side < TilePlane::kLargestTile && 2 * tile_side * sample_angle <= kLargestTileAngle) tile_side *= 2;
   const int blocks = std::max(1, tile_side / simd::kBlockSide);
   row_samples = static_cast<std::uint32_t>(blocks) * simd::kBlockSamples;
   tile_columns = (grid.columns() + tile_side - 1) / tile_side;
@@ -125,38 +105,24 @@ SurfaceTile tile_of(const SurfaceView& view, const SampleGrid& grid, std::size_t
   const auto columns = static_cast<std::size_t>(view.tile_columns);
   const int x = static_cast<int>(tile % columns) * view.tile_side,
             y = static_cast<int>(tile / columns) * view.tile_side;
-  SurfaceTile t = {x, y, std::min(view.tile_side, grid.columns() - x), std::min(view.tile_side, grid.rows() - y)};
-  const double half_columns = grid.columns() * 0.5, half_rows = grid.rows_of_picture() * 0.5;
+  SurfaceTile t;
+  static_cast<TileArea&>(t) = {x, y, std::min(view.tile_side, grid.columns() - x),
+                               std::min(view.tile_side, grid.rows() - y)};
+  const double half_columns = grid.columns_of_picture() * 0.5, half_rows = grid.rows_of_picture() * 0.5;
   const double rim = elementary::kPi / view.sample_angle, slack = 1;  // samples
-  const double u0 = x - half_columns, u1 = u0 + t.columns, v0 = grid.first_row + y - half_rows, v1 = v0 + t.rows;
+  const double u0 = grid.first_column + x - half_columns, u1 = u0 + t.columns, v0 = grid.first_row + y - half_rows,
+               v1 = v0 + t.rows;
   const auto length = [](double u, double v) { return std::sqrt(u * u + v * v); };
   t.is_whole = length(std::max(-u0, u1), std::max(-v0, v1)) + slack < rim;
   t.is_empty = length(std::max({u0, -u1, 0.0}), std::max({v0, -v1, 0.0})) - slack > rim;
   return t;
 }
 
-void TilePlane::set(const SurfaceView& view, const SampleGrid& grid, const RayTable& rays, const SurfaceTile& tile) {
-  // Any orthonormal axes about the tile's centre will do, of determinant 1.
-  const DVector z = normalized(grid.frame.world_from_local(centre_direction(grid, tile)));
-  const DVector other = std::fabs(z.x) < 0.6 ? DVector(1, 0, 0) : DVector(0, 1, 0);
-  const DVector x = normalized(cross(other, z)), y = cross(z, x);
-  const double f = 1 / view.sample_angle;
-  set_axes(x, y, z, f, view.unit, frame);
-  for (int i = 0; i < 3; ++i) frame.origin[i] = grid.frame.position()[i];
-
-  double axes[3][3];
-  store(x, 1, axes[0]);
-  store(y, 1, axes[1]);
-  store(z, 1, axes[2]);
-  set_points(axes, view, grid, rays, tile);
-  // Points are rounded to float32; in double, sums and the division lose less than 2^-48 of f.
-  set_errors(f, reach, 2 * kFloatHalfUlp * reach + 0x1p-44 * f, frame);
-}
-
 // Samples in batches; those beyond the tile repeat its last row and column.
-void TilePlane::set_points(const double axes[3][3], const SurfaceView& view, const SampleGrid& grid,
-                           const RayTable& rays, const SurfaceTile& tile) {
-  reach = 0;
+void set_plane(const SurfaceView& view, const SampleGrid& grid, const RayTable& rays, const SurfaceTile& tile,
+               TilePlane& plane) {
+  const DVector middle = normalized(grid.frame.world_from_local(centre_direction(grid, tile)));
+  plane.look_along(middle, 1 / view.sample_angle, view.unit, grid.frame.position());
   double columns[simd::kSeenBatch], rows[simd::kSeenBatch];
   float x[simd::kSeenBatch], y[simd::kSeenBatch], z[simd::kSeenBatch];
   const std::size_t all = view.samples();
@@ -170,15 +136,16 @@ void TilePlane::set_points(const double axes[3][3], const SurfaceView& view, con
       rows[i] = rays.rows[static_cast<std::size_t>(tile.first_row + row)];
     }
     simd::ray_directions(rays.frame, columns, rows, count, x, y, z);
-    reach = std::max(reach, simd::find_tile_points(axes, 1 / view.sample_angle, x, y, z, count, u + first, v + first));
+    plane.set_points(x, y, z, first, count);
   }
+  plane.set_errors();
   if (tile.is_whole) return;
   for (int row = 0; row < tile.rows; ++row) {
     for (int column = 0; column < tile.columns; ++column) {
       const MapPoint point = grid.map_point(tile.first_column + column, tile.first_row + row);
-      if (grid.projection.has_direction(point)) continue;
+      if (grid.lens.projection()->has_direction(point)) continue;
       const std::uint32_t i = simd::sample_at(view.row_samples, column, row);
-      u[i] = v[i] = std::numeric_limits<float>::quiet_NaN();
+      plane.u[i] = plane.v[i] = std::numeric_limits<float>::quiet_NaN();
     }
   }
 }

@@ -7,6 +7,8 @@
 
 #include "picture/ray_table.h"
 #include "picture/sample_grid.h"
+#include "picture/tile_plane.h"
+#include "picture/tile_raster.h"
 #include "simd/nearest_boxes.h"
 #include "simd/nearest_planes.h"
 #include "simd/nearest_tile.h"
@@ -23,37 +25,25 @@ struct SurfaceView {
   simd::BoxRules boxes;
   double unit = 1;          ///< a power of two that brings the scene's lengths to about 1
   double sample_angle = 0;  ///< radians
-  int tile_side = 1;        ///< samples; a power of two, at most kLargestTile
+  int tile_side = 1;        ///< samples; a power of two, at most TilePlane::kLargestTile
   int tile_columns = 0, tile_rows = 0;
   std::uint32_t row_samples = simd::kBlockSamples;  ///< of a tile's raster, and as many rows of blocks
   simd::PlaneFrame directions;                      ///< (X, Y, Z) in the camera's axes, for set_up_large and find_tiles
 
-  static constexpr int kLargestTile = 32;
   std::size_t samples() const { return std::size_t{row_samples} * row_samples / simd::kBlockSamples; }
 };
 
 /// The samples of one tile.
-struct SurfaceTile {
-  int first_column, first_row, columns, rows;
+struct SurfaceTile : TileArea {
   bool is_whole = false;  ///< all of them have directions
   bool is_empty = false;  ///< none of them has
 };
 
 SurfaceTile tile_of(const SurfaceView& view, const SampleGrid& grid, std::size_t tile);
 
-/// The directions of a tile's samples on a plane of its own, in blocks as in its raster.
-struct TilePlane {
-  simd::PlaneFrame frame;
-  double reach = 0;
-  alignas(64) float u[SurfaceView::kLargestTile * SurfaceView::kLargestTile] = {};
-  alignas(64) float v[SurfaceView::kLargestTile * SurfaceView::kLargestTile] = {};
-
-  void set(const SurfaceView& view, const SampleGrid& grid, const RayTable& rays, const SurfaceTile& tile);
-
- private:
-  void set_points(const double axes[3][3], const SurfaceView& view, const SampleGrid& grid, const RayTable& rays,
-                  const SurfaceTile& tile);
-};
+/// Sets the plane's points to the directions of a tile's samples.
+void set_plane(const SurfaceView& view, const SampleGrid& grid, const RayTable& rays, const SurfaceTile& tile,
+               TilePlane& plane);
 
 /// Caps of all tiles, in the camera's axes.
 class SurfaceCaps {

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <memory>
+#include <span>
 
 #include "map/face_planes.h"
 #include "math/exact_sign.h"
-#include "picture/nearest_contests.h"
 #include "picture/nearest_queues.h"
 #include "picture/nearest_surface.h"
 #include "picture/pages.h"
+#include "picture/tile_raster.h"
 #include "scene/reserve_pages.h"
-#include "simd/nearest_blocks.h"
 
 namespace facemap {
 namespace {
@@ -22,117 +22,9 @@ constexpr std::size_t kLeastFaces = 1 << 14;
 // Boxes over more tiles than this are held against the tiles' caps, so that long or bent faces reach few of them.
 constexpr int kFewTiles = 4;
 
-// Boxes of a tile up to these samples are drawn 16 in lanes, together with those of the same class; larger ones alone.
-constexpr int kClasses = 4;
-constexpr int kClassSamples[kClasses] = {2, 6, 16, 64};
-
-/// A face and its box in a tile, both ends inside.
-struct TileFace {
-  std::uint32_t face;
-  std::uint8_t x0, x1, y0, y1;
-};
-
 struct DealtFace {
   std::uint32_t tile;
   TileFace face;
-};
-
-/// Faces and boxes of a tile that wait to be 16.
-struct Pending {
-  std::uint32_t faces[simd::kBlockFaces];
-  std::int32_t x0[simd::kBlockFaces], x1[simd::kBlockFaces], y0[simd::kBlockFaces], y1[simd::kBlockFaces];
-  std::size_t count = 0;
-
-  void add(const TileFace& f) {
-    faces[count] = f.face;
-    x0[count] = f.x0;
-    x1[count] = f.x1;
-    y0[count] = f.y0;
-    y1[count] = f.y1;
-    ++count;
-  }
-  simd::FaceBoxes boxes() const { return {faces, x0, x1, y0, y1, count}; }
-};
-
-/// One tile's raster, drawn and resolved by itself.
-class TileRaster {
- public:
-  TileRaster(const Scene& scene, const SampleGrid& grid, const SurfaceView& view, const RayTable& rays,
-             const simd::FaceSource& source)
-      : scene_(scene), grid_(grid), view_(view), rays_(rays), source_(source) {}
-
-  void draw(std::size_t number, const TileFace* first, const TileFace* last, NearestFaces& nearest,
-            std::vector<std::uint32_t>& loose, Counters& counters) {
-    const SurfaceTile tile = tile_of(view_, grid_, number);
-    std::fill_n(w_, view_.samples(), 0.0f);
-    contests_.clear();
-    if (first != last && !tile.is_empty) {
-      plane_.set(view_, grid_, rays_, tile);
-      for (const TileFace* f = first; f != last; ++f) add(*f);
-      for (int c = 0; c <= kClasses; ++c) flush(c);
-    }
-    const std::size_t contested =
-        resolve_contests(scene_, grid_, {tile.first_column, tile.first_row}, target(view_.tile_side), loose, &counters);
-    counters.by_float += static_cast<std::size_t>(tile.rows) * static_cast<std::size_t>(tile.columns) - contested;
-    const auto columns = static_cast<std::size_t>(grid_.columns());
-    const std::size_t first_sample =
-        static_cast<std::size_t>(tile.first_row) * columns + static_cast<std::size_t>(tile.first_column);
-    simd::copy_rows(target(tile.rows), static_cast<std::size_t>(tile.columns), nearest.faces.data() + first_sample,
-                    columns);
-  }
-
- private:
-  simd::RasterTarget target(int rows) { return {w_, faces_, view_.row_samples, 0, rows - 1, &contests_, &fragments_}; }
-
-  void add(const TileFace& face) {
-    const int samples = (face.x1 - face.x0 + 1) * (face.y1 - face.y0 + 1);
-    int c = 0;
-    while (c < kClasses && samples > kClassSamples[c]) ++c;
-    pending_[c].add(face);
-    if (pending_[c].count == simd::kBlockFaces) flush(c);
-  }
-
-  void flush(int c) {
-    Pending& pending = pending_[c];
-    if (pending.count == 0) return;
-    const simd::FaceBoxes boxes = pending.boxes();
-    const simd::TilePoints points = {plane_.u, plane_.v};
-    simd::FaceBlock block;
-    simd::set_up_tile_faces(source_, plane_.frame, plane_.reach, boxes.faces, boxes.count, nullptr, block);
-    if (c < kClasses) simd::draw_tile_faces(block, boxes, points, target(view_.tile_side));
-    for (std::size_t k = 0; k < boxes.count; ++k) {
-      if (block.is_unsure[k]) {
-        draw_edge_on(boxes, k);
-      } else if (c == kClasses) {
-        simd::draw_tile_face(block, boxes, k, points, target(view_.tile_side));
-      }
-    }
-    pending.count = 0;
-  }
-
-  // A face whose side doubles cannot tell: nothing if it is seen exactly edge-on.
-  void draw_edge_on(const simd::FaceBoxes& boxes, std::size_t k) {
-    const auto s = static_cast<std::int8_t>(side(triangle_of(scene_, boxes.faces[k]), grid_.frame.position()));
-    if (s == 0) return;
-    const simd::FaceBoxes one = {boxes.faces + k, boxes.x0 + k, boxes.x1 + k, boxes.y0 + k, boxes.y1 + k, 1};
-    simd::FaceBlock block;
-    simd::set_up_tile_faces(source_, plane_.frame, plane_.reach, one.faces, 1, &s, block);
-    simd::draw_tile_face(block, one, 0, {plane_.u, plane_.v}, target(view_.tile_side));
-  }
-
-  static constexpr int kSamples = SurfaceView::kLargestTile * SurfaceView::kLargestTile;
-
-  const Scene& scene_;
-  const SampleGrid& grid_;
-  const SurfaceView& view_;
-  const RayTable& rays_;
-  const simd::FaceSource& source_;
-  TilePlane plane_;
-  alignas(64) float w_[kSamples];
-  alignas(64) FaceId faces_[kSamples];
-  simd::Contests contests_;
-  simd::Fragments fragments_;
-  Pending pending_[kClasses + 1];
 };
 
 class SurfaceRaster {
@@ -244,11 +136,16 @@ class SurfaceRaster {
     std::vector<std::unique_ptr<TileRaster>> rasters(threads);
     std::vector<Counters> counts(threads);
     std::vector<std::vector<std::uint32_t>> loose(threads);
-    executor_.for_each(tile_count(), [&](std::size_t tile, int worker) {
+    executor_.for_each(tile_count(), [&](std::size_t i, int worker) {
       const auto w = static_cast<std::size_t>(worker);
-      if (!rasters[w]) rasters[w] = std::make_unique<TileRaster>(scene_, grid_, view_, rays_, source_);
-      rasters[w]->draw(tile, faces_.get() + starts_[tile], faces_.get() + starts_[tile + 1], nearest, loose[w],
-                       counts[w]);
+      if (!rasters[w]) {
+        rasters[w] = std::make_unique<TileRaster>(scene_, grid_, source_, view_.tile_side, view_.row_samples);
+      }
+      const SurfaceTile tile = tile_of(view_, grid_, i);
+      std::span<const TileFace> faces(faces_.get() + starts_[i], faces_.get() + starts_[i + 1]);
+      if (tile.is_empty) faces = {};
+      if (!faces.empty()) set_plane(view_, grid_, rays_, tile, rasters[w]->plane);
+      rasters[w]->draw(tile, faces, nearest, loose[w], counts[w]);
     });
     for (std::size_t w = 0; w < threads; ++w) {
       nearest.loose.insert(nearest.loose.end(), loose[w].begin(), loose[w].end());

@@ -63,9 +63,10 @@ double unit_for(double largest) {
 }
 
 std::optional<PlaneView> plane_view(const Scene& scene, const SampleGrid& grid) {
-  if (grid.projection.kind() != ProjectionKind::Plane) return std::nullopt;
-  const double half_columns = grid.columns() * 0.5, half_rows = grid.rows_of_picture() * 0.5;
-  const double f = grid.per_side / grid.projection.texel_angle();  // samples a unit of X/Z or Y/Z
+  const Projection* projection = grid.lens.projection();
+  if (projection == nullptr || projection->kind() != ProjectionKind::Plane) return std::nullopt;
+  const double half_columns = grid.columns_of_picture() * 0.5, half_rows = grid.rows_of_picture() * 0.5;
+  const double f = grid.per_side / projection->texel_angle();  // samples a unit of X/Z or Y/Z
   const double x = half_columns / f, y = half_rows / f, stretch = std::sqrt(1 + x * x + y * y);
   const double limit = 2 * std::max(half_columns, half_rows) + 1;
   const double reach = std::sqrt(1 + 2 * limit * limit / (f * f));
@@ -87,7 +88,7 @@ std::optional<PlaneView> plane_view(const Scene& scene, const SampleGrid& grid) 
   planes.determinant_error = 128 * kDoubleHalfUlp * f * f;
 
   set_vertices(view, f, limit, half_columns, half_rows);
-  view.first_u = 0.5 - half_columns;
+  view.first_u = grid.first_column + 0.5 - half_columns;
   view.first_v = grid.first_row + 0.5 - half_rows;
   simd::BoxRules& boxes = view.boxes;
   boxes.first_column = static_cast<float>(view.first_u);

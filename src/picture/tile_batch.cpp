@@ -73,8 +73,7 @@ void TileBatch::find_offsets(const Vector& origin, double allowed) {
   const float K[3] = {camera.x, camera.y, camera.z};
   slots_.assign(faces_, rays_.count, rays_.slots);
   simd::set_up_planes(slots_.planes, K);
-  simd::ray_directions(table_.frame, rays_.map_x, rays_.map_y, rays_.count, rays_.direction[0], rays_.direction[1],
-                       rays_.direction[2]);
+  table_.find_directions(samples_, rays_);
   const DVector from_origin = DVector(camera) - DVector(origin);
   const double base[3] = {from_origin.x, from_origin.y, from_origin.z};
   if (!simd::meet_planes(slots_.planes, base, allowed, rays_, is_sharp_)) return;

@@ -2,27 +2,53 @@
 
 #include <algorithm>
 
+#include "render/picture_frame.h"
+
 namespace facemap {
 namespace {
 
 constexpr int kRowsPerReport = 8;
 
+// The same pixels and one more on every side, as far as the picture goes.
+PixelBox with_neighbours(const PixelBox& box, const Renderer::Options& options) {
+  const int left = std::max(0, box.x - 1), top = std::max(0, box.y - 1);
+  const int right = std::min(options.width, box.x + box.width + 1);
+  const int bottom = std::min(options.height, box.y + box.height + 1);
+  return {left, top, right - left, bottom - top};
+}
+
+// Rows and columns of a plane with `size` values a pixel.
+template <class T>
+std::vector<T> cut_out(const std::vector<T>& plane, std::size_t size, const PixelBox& from, const PixelBox& part) {
+  std::vector<T> result;
+  if (plane.empty()) return result;
+  for (int y = part.y; y < part.y + part.height; ++y) {
+    const std::size_t first = static_cast<std::size_t>(y - from.y) * static_cast<std::size_t>(from.width) +
+                              static_cast<std::size_t>(part.x - from.x);
+    const auto begin = plane.begin() + static_cast<std::ptrdiff_t>(first * size);
+    result.insert(result.end(), begin,
+                  begin + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(part.width) * size));
+  }
+  return result;
+}
+
 }  // namespace
 
-Painter::Painter(const Camera& camera, std::span<const PointLight> lights, const Renderer::Options& options,
+Painter::Painter(const Eye& eye, std::span<const PointLight> lights, const Renderer::Options& options,
                  const MaterialTable* materials, const Executor& executor, Report report)
-    : camera_(camera), options_(options), executor_(executor), report_(std::move(report)) {
-  image_.width = options.width;
-  image_.height = options.height;
-  image_.light_count = static_cast<int>(lights.size());
-  const std::size_t pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
+    : eye_(eye), options_(options), executor_(executor), report_(std::move(report)) {
   const bool edges = options.sampling == Renderer::Sampling::Edges;
+  made_ = edges ? with_neighbours(made_pixels(options), options) : made_pixels(options);
+  image_.width = made_.width;
+  image_.height = made_.height;
+  image_.light_count = static_cast<int>(lights.size());
+  const std::size_t pixels = static_cast<std::size_t>(made_.width) * static_cast<std::size_t>(made_.height);
   image_.pixels.resize(pixels);
   if (options.planes.has(Plane::Id) || edges) image_.ids.resize(pixels);
   if (options.planes.has(Plane::Lights) || edges)
     image_.lights.resize(pixels * static_cast<std::size_t>(image_.light_bytes()));
   for (int i = 0; i < executor.threads(); ++i) {
-    workers_.push_back(std::make_unique<Worker>(camera, lights, options, materials));
+    workers_.push_back(std::make_unique<Worker>(eye, lights, options, materials));
   }
 }
 
@@ -32,6 +58,7 @@ Image Painter::paint(Renderer::Statistics& statistics) {
     for_each_row(0.5, 0.5, [&](int y, Worker& worker) { upsample_edges(y, worker); });
     if (!options_.planes.has(Plane::Id)) image_.ids = {};
     if (!options_.planes.has(Plane::Lights)) image_.lights = {};
+    cut_out_made();
   } else {
     for_each_row(0, 1, [&](int y, Worker& worker) { paint_row(y, options_.samples, worker); });
   }
@@ -43,6 +70,23 @@ Image Painter::paint(Renderer::Statistics& statistics) {
     statistics.light_tests += worker->statistics.light_tests;
   }
   return std::move(image_);
+}
+
+// Leaves the neighbours out that edges were found with.
+void Painter::cut_out_made() {
+  const PixelBox part = made_pixels(options_);
+  image_.pixels = cut_out(image_.pixels, 1, made_, part);
+  image_.ids = cut_out(image_.ids, 1, made_, part);
+  image_.lights = cut_out(image_.lights, static_cast<std::size_t>(image_.light_bytes()), made_, part);
+  image_.width = part.width;
+  image_.height = part.height;
+}
+
+// Whether it is of those that are asked for.
+bool Painter::is_made(int x, int y) const {
+  const PixelBox part = made_pixels(options_);
+  const int column = made_.x + x - part.x, row = made_.y + y - part.y;
+  return column >= 0 && column < part.width && row >= 0 && row < part.height;
 }
 
 void Painter::for_each_row(double done_before, double share,
@@ -63,7 +107,7 @@ void Painter::paint_row(int y, int samples, Worker& worker) {
     const std::size_t pixel = index(x, y);
     if (!centre_is_sampled) image_.pixels[pixel] = mean_of_grid(x, y, samples, worker);
     if (!centre_is_sampled && !wants_planes) continue;
-    worker.shader.shade(MapPoint(x + 0.5, y + 0.5), 1, worker.sample);
+    worker.shader.shade(MapPoint(made_.x + x + 0.5, made_.y + y + 0.5), 1, worker.sample);
     if (centre_is_sampled) image_.pixels[pixel] = worker.sample.color;
     store_planes(pixel, worker.sample);
   }
@@ -81,8 +125,8 @@ Color Painter::mean_of_grid(int x, int y, int samples, Worker& worker) {
   double r = 0, g = 0, b = 0;
   for (int j = 0; j < samples; ++j) {
     for (int i = 0; i < samples; ++i) {
-      worker.shader.shade(MapPoint(x + (i + 0.5) / samples, y + (j + 0.5) / samples), 1.0 / samples,
-                          worker.grid_sample);
+      const MapPoint place(made_.x + x + (i + 0.5) / samples, made_.y + y + (j + 0.5) / samples);
+      worker.shader.shade(place, 1.0 / samples, worker.grid_sample);
       r += worker.grid_sample.color.r;
       g += worker.grid_sample.color.g;
       b += worker.grid_sample.color.b;
@@ -95,7 +139,7 @@ Color Painter::mean_of_grid(int x, int y, int samples, Worker& worker) {
 // Wang 2022, sec. 2.3, Fig. 3: only the pixels that may hold an edge are divided.
 void Painter::upsample_edges(int y, Worker& worker) {
   for (int x = 0; x < image_.width; ++x) {
-    if (!may_hold_edge(x, y)) continue;
+    if (!is_made(x, y) || !may_hold_edge(x, y)) continue;
     ++worker.statistics.upsampled_pixels;
     image_.pixels[index(x, y)] = mean_of_grid(x, y, options_.samples, worker);
   }
@@ -105,7 +149,7 @@ void Painter::upsample_edges(int y, Worker& worker) {
 // another normal) or other lights.
 bool Painter::may_hold_edge(int x, int y) const {
   const std::size_t own = index(x, y);
-  for (const std::uint32_t face : camera_.faces_at(x, y)) {
+  for (const std::uint32_t face : eye_.faces_at(made_.x + x, made_.y + y)) {
     if (static_cast<FaceId>(face) != image_.ids[own]) return true;
   }
   for (int v = std::max(0, y - 1); v <= std::min(image_.height - 1, y + 1); ++v) {

@@ -21,7 +21,7 @@ class Painter {
   /// `report` is called now and then with the fraction done; it may throw.
   using Report = std::function<void(double)>;
 
-  Painter(const Camera& camera, std::span<const PointLight> lights, const Renderer::Options& options,
+  Painter(const Eye& eye, std::span<const PointLight> lights, const Renderer::Options& options,
           const MaterialTable* materials, const Executor& executor, Report report);
 
   /// Call once. Adds queries, tests and upsampled pixels to `statistics`.
@@ -33,14 +33,16 @@ class Painter {
     Shader shader;
     Sample sample, grid_sample;
 
-    Worker(const Camera& camera, std::span<const PointLight> lights, const Renderer::Options& options,
+    Worker(const Eye& eye, std::span<const PointLight> lights, const Renderer::Options& options,
            const MaterialTable* materials)
-        : shader(camera, lights, options, statistics, materials) {}
+        : shader(eye, lights, options, statistics, materials) {}
   };
 
   void for_each_row(double done_before, double share, const std::function<void(int y, Worker&)>& paint_row);
   void paint_row(int y, int samples, Worker& worker);
   void upsample_edges(int y, Worker& worker);
+  void cut_out_made();
+  bool is_made(int x, int y) const;
   void store_planes(std::size_t pixel, const Sample& sample);
   Color mean_of_grid(int x, int y, int samples, Worker& worker);
   bool may_hold_edge(int x, int y) const;
@@ -50,12 +52,13 @@ class Painter {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width) + static_cast<std::size_t>(x);
   }
 
-  const Camera& camera_;
+  const Eye& eye_;
   const Renderer::Options& options_;
   const Executor& executor_;
   Report report_;
   std::mutex reporting_;
   int rows_done_ = 0;
+  PixelBox made_;  // of the picture; with edges, those that are looked at: one more on every side
   std::vector<std::unique_ptr<Worker>> workers_;
   Image image_;
 };

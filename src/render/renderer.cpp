@@ -9,9 +9,11 @@
 
 #include "material/material_table.h"
 #include "math/dvector.h"
+#include "math/elementary.h"
 #include "parallel/executor.h"
 #include "render/cost_model.h"
 #include "render/painter.h"
+#include "render/picture_frame.h"
 #include "render/planes.h"
 #include "render/stopwatch.h"
 #include "render/whole_picture.h"
@@ -21,12 +23,20 @@
 namespace facemap {
 namespace {
 
+constexpr int kLargestMap = 2048;  // texels a side, of a lens's map
+
 bool is_valid(const Color& c) {
   return c.r >= 0 && c.g >= 0 && c.b >= 0 && std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
 }
 
 void validate(const Renderer::Options& options, const std::vector<Light>& lights) {
   if (options.samples < 1 || options.samples > 16) throw Error("samples a side of a pixel must be 1 to 16");
+  if (options.crop) {
+    const PixelBox& box = *options.crop;
+    const bool is_inside = box.x >= 0 && box.y >= 0 && box.width >= 1 && box.height >= 1 &&
+                           box.width <= options.width - box.x && box.height <= options.height - box.y;
+    if (!is_inside) throw Error("crop must be at least one pixel and lie within the picture");
+  }
   if (!is_valid(options.background)) throw Error("background must be finite and not negative");
   if (!is_valid(options.ambient) || !is_valid(options.sky_up) || !is_valid(options.sky_down)) {
     throw Error("ambient and sky colours must be finite and not negative");
@@ -43,6 +53,23 @@ void validate(const Renderer::Options& options, const std::vector<Light>& lights
       throw Error("colour and intensity of light " + std::to_string(i) + " must be finite and not negative");
     }
   }
+}
+
+// The map that a lens is asked of: its own if it is a projection, else one of all that it shows.
+Camera::Options camera_options(const Lens& lens, Builder builder) {
+  Camera::Options options;
+  options.builder = builder;
+  options.width = lens.width();
+  options.height = lens.height();
+  if (const Projection* projection = lens.projection()) {
+    options.projection = projection->kind();
+    options.field_angle = projection->field_angle();
+    return options;
+  }
+  constexpr double kRoundedDirection = 0x1p-20;  // radians: float32, and what doubles lose
+  options.field_angle = std::min(2 * elementary::kPi, 2 * (lens.largest_angle() + kRoundedDirection));
+  options.width = options.height = std::min(kLargestMap, std::max(lens.width(), lens.height()));
+  return options;
 }
 
 }  // namespace
@@ -72,8 +99,8 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 void Renderer::set_view(const View& view) {
   const FloatingPointMode mode;
-  Projection(view.projection, view.field_angle, options_.width, options_.height);
-  SpaceVector::looking_at(view.position, view.look_at, view.up);
+  lens_of(view, options_.width, options_.height);
+  frame_of(view);
   view_ = view;
 }
 
@@ -109,7 +136,8 @@ Image Renderer::make(const Request& request) {
   const Options& options = request.options;
   PictureWork work;
   work.faces = scene_->kept_faces().size();
-  work.samples = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height) *
+  const PixelBox made = made_pixels(options);
+  work.samples = static_cast<std::size_t>(made.width) * static_cast<std::size_t>(made.height) *
                  static_cast<std::size_t>(options.samples) * static_cast<std::size_t>(options.samples);
   work.lights = lights_.size();
   work.has_lists = kept_->lists.size() == lights_.size();
@@ -147,8 +175,10 @@ Image Renderer::make(const Request& request) {
 void Renderer::fill_planes(Image& image) {
   const FloatingPointMode mode;
   const Stopwatch time;
-  const SampleGrid centres{SpaceVector::looking_at(view_.position, view_.look_at, view_.up),
-                           Projection(view_.projection, view_.field_angle, options_.width, options_.height)};
+  SampleGrid centres = grid_of(view_, options_, 1);
+  if (centres.lens.projection() == nullptr && !options_.planes.empty()) {
+    centres.directions = make_directions(centres, kept_->executor);
+  }
   facemap::fill_planes({*scene_, centres, options_.normals == Normals::Smooth, kept_->materials.get(), kept_->executor},
                        options_.planes, image);
   statistics_.shade_ms += time.milliseconds();
@@ -189,18 +219,14 @@ void Renderer::build_lists(const Request& request) {
 Image Renderer::paint_by_lists(const Request& request) {
   request.report(0, "camera map");
   const Stopwatch camera_time;
-  Camera::Options camera_options;
-  camera_options.projection = view_.projection;
-  camera_options.field_angle = view_.field_angle;
-  camera_options.width = request.options.width;
-  camera_options.height = request.options.height;
-  camera_options.builder = request.options.builder;
-  const Camera camera(*scene_, SpaceVector::looking_at(view_.position, view_.look_at, view_.up), camera_options);
+  const Lens lens = lens_of(view_, request.options.width, request.options.height);
+  const Camera camera(*scene_, frame_of(view_), camera_options(lens, request.options.builder));
   statistics_.camera_map_ms = camera_time.milliseconds();
   statistics_.map_bytes += camera.memory_bytes();
 
   const Stopwatch shade_time;
-  Painter painter(camera, kept_->lists, request.options, kept_->materials.get(), kept_->executor,
+  const CentralEye eye(camera, lens);
+  Painter painter(eye, kept_->lists, request.options, kept_->materials.get(), kept_->executor,
                   [&](double fraction) { request.report(fraction, "shade"); });
   Image image = painter.paint(statistics_);
   statistics_.shade_ms += shade_time.milliseconds();

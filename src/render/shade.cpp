@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "map/face_planes.h"
 #include "math/dvector.h"
 #include "math/exact_sign.h"
 #include "render/lit_surface.h"
-#include "render/neighbour_rays.h"
 
 namespace facemap {
 namespace {
@@ -28,23 +28,23 @@ struct Shader::Surface {
   Vector moved{0};
 };
 
-Shader::Shader(const Camera& camera, std::span<const PointLight> lights, const Renderer::Options& options,
+Shader::Shader(const Eye& eye, std::span<const PointLight> lights, const Renderer::Options& options,
                Renderer::Statistics& statistics, const MaterialTable* materials)
-    : camera_(camera),
+    : eye_(eye),
       lights_(lights),
       options_(options),
       statistics_(statistics),
       materials_(materials),
       surroundings_(options) {}
 
-Shader::Surface Shader::surface_at(const Vector& direction, const Camera::Hit& hit) const {
+Shader::Surface Shader::surface_at(const Eye::Ray& ray, const Camera::Hit& hit) const {
   Surface surface;
-  surface.point = camera_.surface_point(direction, hit);
-  const Face face = camera_.scene().mesh().face(static_cast<std::size_t>(hit.face));
-  const FaceCorners corners = corners_of(camera_.scene().mesh(), static_cast<std::size_t>(hit.face));
+  const auto id = static_cast<std::uint32_t>(hit.face);
+  surface.point = {ray.origin, ray.direction, triangle_of(eye_.scene(), id), hit.face, hit.side};
+  const Face face = eye_.scene().mesh().face(id);
+  const FaceCorners corners = corners_of(eye_.scene().mesh(), id);
   const auto& [v, n] = corners;
-  const DVector weights =
-      barycentric(corners, point_on_plane(corners, DVector(camera_.position()), DVector(direction)));
+  const DVector weights = barycentric(corners, point_on_plane(corners, DVector(ray.origin), DVector(ray.direction)));
   surface.weights = weights;
   surface.position = weighted(v, weights);
   // s < 0: the face is turned towards the camera, its normal with it.
@@ -118,9 +118,10 @@ DVector Shader::material_radiance(const Surface& surface, const MapPoint& point,
   seen.weights = surface.weights;
   seen.normal = surface.normal;
   seen.is_behind = surface.point.side > 0;
-  seen.camera = DVector(camera_.position());
-  seen.rays.through = surface.point.direction;
-  if (materials_->has_textures(seen.face)) set_neighbours(camera_, camera_.projection(), point, step, seen.rays);
+  const Eye::Ray ray = {surface.point.origin, surface.point.direction};
+  seen.camera = DVector(ray.origin);
+  seen.rays.through = ray.direction;
+  if (materials_->has_textures(seen.face)) seen.rays = eye_.bundle(ray, point, step);
   const SurfaceLook look = materials_->look(seen, frame_);
   LitSurface lit(seen, look, surface.position, surroundings_);
   const bool inverse_square = options_.falloff == Renderer::Falloff::InverseSquare;
@@ -134,13 +135,13 @@ DVector Shader::material_radiance(const Surface& surface, const MapPoint& point,
 void Shader::shade(const MapPoint& point, double step, Sample& sample) {
   sample.lights.assign((lights_.size() + 7) / 8, 0);
   sample.color = options_.background;
-  const Vector direction = camera_.direction_through(point);
+  const Eye::Ray ray = eye_.ray(point);
   ++statistics_.camera_queries;
-  const Camera::Hit hit = camera_.nearest(direction, &statistics_.camera_tests);
+  const Camera::Hit hit = eye_.nearest(ray, &statistics_.camera_tests);
   sample.face = hit.face;
   if (!hit) return;
 
-  const Surface surface = surface_at(direction, hit);
+  const Surface surface = surface_at(ray, hit);
   const DVector radiance =
       materials_ == nullptr ? white_radiance(surface, sample) : material_radiance(surface, point, step, sample);
   sample.color = {static_cast<float>(radiance.x), static_cast<float>(radiance.y), static_cast<float>(radiance.z)};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "material/material_table.h"
+#include "render/eye.h"
 #include "render/surroundings.h"
 
 namespace facemap {
@@ -26,7 +27,7 @@ class Shader {
   /// float32, half a unit of 2^-24 for each coordinate, sqrt(3) for three.
   static constexpr double kLeastLift = 0x1p-23;
 
-  Shader(const Camera& camera, std::span<const PointLight> lights, const Renderer::Options& options,
+  Shader(const Eye& eye, std::span<const PointLight> lights, const Renderer::Options& options,
          Renderer::Statistics& statistics, const MaterialTable* materials = nullptr);
 
   /// The sample along the ray through a map point; writes over `sample`, whose memory is used again. `step`: to the
@@ -35,14 +36,14 @@ class Shader {
 
  private:
   struct Surface;
-  Surface surface_at(const Vector& direction, const Camera::Hit& hit) const;
+  Surface surface_at(const Eye::Ray& ray, const Camera::Hit& hit) const;
   bool is_lit(const PointLight& light, const Surface& surface);
   template <class Add>
   void for_each_lit(const Surface& surface, Sample& sample, const Add& add);
   DVector white_radiance(const Surface& surface, Sample& sample);
   DVector material_radiance(const Surface& surface, const MapPoint& point, double step, Sample& sample);
 
-  const Camera& camera_;
+  const Eye& eye_;
   std::span<const PointLight> lights_;
   const Renderer::Options& options_;
   Renderer::Statistics& statistics_;

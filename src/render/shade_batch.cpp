@@ -93,8 +93,7 @@ void ShadeBatch::set_up_rays() {
     rays_.map_x[i] = table_.columns[sample - begin];
     rays_.map_y[i] = table_.rows[row];
   }
-  simd::ray_directions(table_.frame, rays_.map_x, rays_.map_y, rays_.count, rays_.direction[0], rays_.direction[1],
-                       rays_.direction[2]);
+  table_.find_directions(samples_, rays_);
 }
 
 void ShadeBatch::set_up_faces() {

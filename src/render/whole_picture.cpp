@@ -10,6 +10,7 @@
 #include "picture/nearest_faces.h"
 #include "picture/sample_grid.h"
 #include "picture/seen_points.h"
+#include "render/picture_frame.h"
 #include "render/shade_picture.h"
 #include "render/stopwatch.h"
 
@@ -66,8 +67,8 @@ std::size_t count_bits(const std::vector<std::uint8_t>& bytes) {
 
 // The mean of each pixel's samples, in the order of rows and columns.
 std::vector<Color> mean_of_samples(const SampleGrid& grid, const std::vector<Color>& colors, const Executor& executor) {
-  const auto width = static_cast<std::size_t>(grid.projection.width());
   const auto per_side = static_cast<std::size_t>(grid.per_side);
+  const std::size_t width = static_cast<std::size_t>(grid.columns()) / per_side;
   const std::size_t height = static_cast<std::size_t>(grid.rows()) / per_side;
   const double count = static_cast<double>(per_side * per_side);
   std::vector<Color> means(width * height);
@@ -118,25 +119,38 @@ WholePicture::WholePicture(const Scene& scene, const View& view, const std::vect
 
 // Whole pixels stay together.
 std::vector<SampleGrid> WholePicture::bands(int per_side) const {
-  SampleGrid grid{SpaceVector::looking_at(view_.position, view_.look_at, view_.up),
-                  Projection(view_.projection, view_.field_angle, options_.width, options_.height), per_side};
+  SampleGrid grid = grid_of(view_, options_, per_side);
   std::size_t largest = kLargestBand;
   if (options_.map_memory != 0) {
     const auto threads = static_cast<std::size_t>(executor_.threads());
     const std::size_t for_faces = scene_.mesh().positions.size() * kBytesPerFaceAndThread * threads;
     const std::size_t left = options_.map_memory - std::min(options_.map_memory, for_faces);
-    largest = std::min(largest, left / (kBytesPerSample + kBytesPerSampleAndThread * threads));
+    const std::size_t of_table = grid.lens.projection() == nullptr ? DirectionTable::kBytesPerSample : 0;
+    largest = std::min(largest, left / (kBytesPerSample + of_table + kBytesPerSampleAndThread * threads));
   }
-  const int all = grid.rows_of_picture();
+  const int all = grid.rows(), end = grid.first_row + all;
   const auto fitting = static_cast<int>(
       std::min<std::size_t>(largest / static_cast<std::size_t>(grid.columns()), static_cast<std::size_t>(all)));
   const int rows = std::max(fitting / per_side, (kFewestRows + per_side - 1) / per_side) * per_side;
   std::vector<SampleGrid> result;
-  for (grid.first_row = 0; grid.first_row < all; grid.first_row += rows) {
-    grid.row_count = std::min(rows, all - grid.first_row);
+  for (; grid.first_row < end; grid.first_row += rows) {
+    grid.row_count = std::min(rows, end - grid.first_row);
     result.push_back(grid);
   }
   return result;
+}
+
+// The table of what kernels do not give.
+SampleGrid WholePicture::with_directions(SampleGrid band) {
+  const Stopwatch time;
+  if (band.lens.projection() == nullptr) band.directions = make_directions(band, executor_);
+  statistics_.camera_map_ms += time.milliseconds();
+  return band;
+}
+
+// In the image of the grid's samples.
+std::size_t WholePicture::first_row_of(const SampleGrid& grid) const {
+  return static_cast<std::size_t>(grid.first_row - made_pixels(options_).y * grid.per_side);
 }
 
 void WholePicture::report(double share, const char* phase) {
@@ -214,8 +228,9 @@ void WholePicture::ask_lights(const SampleGrid& grid, SeenPoints& seen) {
 
 Image WholePicture::empty_image(int per_side) const {
   Image image;
-  image.width = options_.width * per_side;
-  image.height = options_.height * per_side;
+  const PixelBox pixels = made_pixels(options_);
+  image.width = pixels.width * per_side;
+  image.height = pixels.height * per_side;
   image.light_count = static_cast<int>(lights_.size());
   return image;
 }
@@ -224,7 +239,7 @@ Image WholePicture::empty_image(int per_side) const {
 void WholePicture::put_planes(Seen&& seen, Image& image) const {
   const std::size_t columns = static_cast<std::size_t>(image.width);
   const std::size_t count = columns * static_cast<std::size_t>(image.height);
-  const std::size_t first = columns * static_cast<std::size_t>(seen.grid.first_row);
+  const std::size_t first = columns * first_row_of(seen.grid);
   if (options_.planes.has(Plane::Lights)) {
     image.lights.resize(count * seen.points.stride);
     put_masks(seen.points, image.lights.data() + first * seen.points.stride);
@@ -237,8 +252,8 @@ Image WholePicture::look() {
   Image image = empty_image(options_.samples);
   const std::vector<SampleGrid> grids = bands(options_.samples);
   band_count_ = grids.size();
-  for (const SampleGrid& grid : grids) {
-    put_planes(see(grid), image);
+  for (const SampleGrid& band : grids) {
+    put_planes(see(with_directions(band)), image);
     ++bands_done_;
   }
   return image;
@@ -255,7 +270,8 @@ Image WholePicture::paint() {
   const std::vector<SampleGrid> centres = wants_planes && !centres_are_sampled ? bands(1) : std::vector<SampleGrid>();
   band_count_ = grids.size() + centres.size();
 
-  for (const SampleGrid& grid : grids) {
+  for (const SampleGrid& band : grids) {
+    const SampleGrid grid = with_directions(band);
     Seen seen = see(grid);
     const Stopwatch shade_time;
     report(0.8, "shade");
@@ -263,7 +279,7 @@ Image WholePicture::paint() {
     shade_points(scene_, grid, seen.points, lights_, options_, executor_, colors_, materials_);
     if (!centres_are_sampled) colors_ = mean_of_samples(grid, colors_, executor_);
     put_band(std::move(colors_),
-             static_cast<std::size_t>(grid.first_row / options_.samples) * static_cast<std::size_t>(image.width),
+             first_row_of(grid) / static_cast<std::size_t>(options_.samples) * static_cast<std::size_t>(image.width),
              pixels, image.pixels);
     if (wants_planes && centres_are_sampled) {
       put_planes(std::move(seen), image);
@@ -272,8 +288,8 @@ Image WholePicture::paint() {
     ++bands_done_;
   }
   paints_ = false;
-  for (const SampleGrid& grid : centres) {
-    put_planes(see(grid), image);
+  for (const SampleGrid& band : centres) {
+    put_planes(see(with_directions(band)), image);
     ++bands_done_;
   }
   report_(1, "shade");

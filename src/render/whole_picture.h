@@ -43,6 +43,8 @@ class WholePicture {
  private:
   struct Seen;
   std::vector<SampleGrid> bands(int per_side) const;
+  SampleGrid with_directions(SampleGrid band);
+  std::size_t first_row_of(const SampleGrid& grid) const;
   Seen see(const SampleGrid& grid);
   void prepare_lights(const SampleGrid& grid, const MovedPoints& moved, SeenPoints& seen);
   void ask_lights(const SampleGrid& grid, SeenPoints& seen);

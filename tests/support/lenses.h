@@ -2,9 +2,13 @@
 
 #include <facemap/lens.h>
 
+#include <algorithm>
+#include <cmath>
 #include <ostream>
 #include <string>
 #include <vector>
+
+#include "support/random.h"
 
 /// A lens of each kind and of what is odd about it, for tests that hold for all of them.
 struct NamedLens {
@@ -13,6 +17,35 @@ struct NamedLens {
 };
 
 inline void PrintTo(const NamedLens& named, std::ostream* out) { *out << named.name; }
+
+/// A small picture's lens of any kind but surface and plane, at most `largest` pixels a side.
+inline NamedLens random_lens(Random& random, int largest) {
+  using facemap::Lens;
+  const int width = random.between(1, largest), height = random.between(1, largest);
+  const double f = std::exp2(random.between(-1.0, 1.0)) * largest;
+  const facemap::CameraMatrix matrix = {f, f * random.between(0.8, 1.2), width * random.between(-0.2, 1.2),
+                                        height * random.between(0.3, 0.6)};
+  switch (random.below(6)) {
+    case 0:
+      return {"equirectangular", Lens::equirectangular(width, height)};
+    case 1: {
+      const auto layout = static_cast<facemap::CubeLayout>(random.below(3));
+      return {"cube", Lens::cube_map(layout, random.between(1, std::max(1, largest / 3)))};
+    }
+    case 2:
+      return {"pinhole", Lens::opencv_pinhole(matrix, {}, width, height)};
+    case 3: {
+      const facemap::PinholeDistortion bent = {random.between(-0.4, 0.3), 0.05, random.between(-0.01, 0.01), 0.002};
+      return {"bent pinhole", Lens::opencv_pinhole(matrix, bent, width, height)};
+    }
+    case 4:
+      return {"fisheye", Lens::opencv_fisheye({f / 4, f / 5, matrix.cx, matrix.cy}, {}, width, height)};
+    default: {
+      const facemap::FisheyeDistortion bent = {random.between(-0.1, 0.05), -0.01, 0.002, 0};
+      return {"bent fisheye", Lens::opencv_fisheye({f / 3, f / 3, matrix.cx, matrix.cy}, bent, width, height)};
+    }
+  }
+}
 
 inline std::vector<NamedLens> all_lenses() {
   using facemap::CubeLayout;

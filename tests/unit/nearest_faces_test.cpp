@@ -8,6 +8,7 @@
 
 #include "simd/nearest_vertices.h"
 #include "simd/target.h"
+#include "support/lenses.h"
 #include "support/scenes.h"
 
 namespace {
@@ -15,6 +16,7 @@ namespace {
 using facemap::Camera;
 using facemap::DVector;
 using facemap::Executor;
+using facemap::Lens;
 using facemap::Mesh;
 using facemap::NearestFaces;
 using facemap::Projection;
@@ -26,18 +28,21 @@ using facemap::Vector;
 
 constexpr double kDegree = 0.017453292519943295;
 
-Camera::Options options_of(const Projection& projection) {
+Camera::Options options_of(const Lens& lens) {
   Camera::Options options;
-  options.projection = projection.kind();
-  options.field_angle = projection.field_angle();
-  options.width = projection.width();
-  options.height = projection.height();
+  options.width = lens.width();
+  options.height = lens.height();
+  options.field_angle = 360 * kDegree;
+  if (const Projection* projection = lens.projection()) {
+    options.projection = projection->kind();
+    options.field_angle = projection->field_angle();
+  }
   return options;
 }
 
 // What Camera::nearest says of every sample.
 NearestFaces asked_one_by_one(const Scene& scene, const SampleGrid& grid) {
-  const Camera camera(scene, grid.frame, options_of(grid.projection));
+  const Camera camera(scene, grid.frame, options_of(grid.lens));
   NearestFaces nearest;
   for (int row = 0; row < grid.rows(); ++row) {
     for (int column = 0; column < grid.columns(); ++column) {
@@ -115,6 +120,57 @@ TEST(NearestFaces, OfRandomScenesAreThoseOfTheCamera) {
                     "scene " + std::to_string(i) + " (" + scene.name + "), " + std::to_string(degrees) + " degrees, " +
                         std::to_string(width) + " x " + std::to_string(height));
     if (HasFatalFailure()) return;
+  }
+}
+
+// Some of the picture, or all of it.
+void crop(Random& random, SampleGrid& grid) {
+  const int columns = grid.columns_of_picture(), rows = grid.rows_of_picture();
+  grid.first_column = random.below(columns);
+  grid.first_row = random.below(rows);
+  grid.column_count = random.between(1, columns - grid.first_column);
+  grid.row_count = random.between(1, rows - grid.first_row);
+}
+
+TEST(NearestFaces, OfOtherLensesAreThoseOfTheCamera) {
+  Random random(20260003);
+  for (int i = 0; i < 250; ++i) {
+    const test_scenes::TestScene scene = test_scenes::make_any_scene(random, 120);
+    const Vector from = test_scenes::make_origin(scene, random);
+    const Vector at = random.chance(0.8) ? scene.centre : test_scenes::make_origin(scene, random);
+    const NamedLens named = random_lens(random, 80);
+    SampleGrid grid{looking(from, at), named.lens, random.chance(0.2) ? 2 : 1};
+    if (random.chance(0.3)) crop(random, grid);
+    expect_as_asked(scene.mesh, grid,
+                    "scene " + std::to_string(i) + " (" + scene.name + "), " + named.name + " " +
+                        std::to_string(named.lens.width()) + " x " + std::to_string(named.lens.height()));
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(NearestFaces, OfPartsAreThoseOfTheWhole) {
+  Random random(20260004);
+  for (int i = 0; i < 60; ++i) {
+    const test_scenes::TestScene made = test_scenes::make_any_scene(random, 120);
+    const Scene scene(made.mesh);
+    const SpaceVector frame = looking(test_scenes::make_origin(made, random), made.centre);
+    const Projection projection(random.chance(0.5) ? ProjectionKind::Plane : ProjectionKind::Surface, 1.5, 90, 70);
+    const Lens lens = random.chance(0.6) ? Lens(projection) : random_lens(random, 80).lens;
+    SampleGrid part{frame, lens, random.between(1, 2)};
+    const SampleGrid whole = part;
+    crop(random, part);
+    const Executor executor(2);
+    const NearestFaces all = find_nearest_faces(scene, whole, executor);
+    const NearestFaces some = find_nearest_faces(scene, part, executor);
+    for (int row = 0; row < part.rows(); ++row) {
+      for (int column = 0; column < part.columns(); ++column) {
+        const int of_whole = (part.first_row + row) * whole.columns() + part.first_column + column;
+        ASSERT_EQ(some.faces[static_cast<std::size_t>(row * part.columns() + column)],
+                  all.faces[static_cast<std::size_t>(of_whole)])
+            << "round " << i << ", column " << column << ", row " << row;
+        ASSERT_EQ(part.direction(column, row), whole.direction(part.first_column + column, part.first_row + row));
+      }
+    }
   }
 }
 

@@ -168,13 +168,14 @@ Expected shade_singly(const Setting& setting, const MaterialTable* materials = n
     expected.lights.back().intensity = light.intensity;
   }
   Camera::Options options;
-  options.projection = setting.grid.projection.kind();
-  options.field_angle = setting.grid.projection.field_angle();
-  options.width = setting.grid.projection.width();
-  options.height = setting.grid.projection.height();
+  options.projection = setting.grid.lens.projection()->kind();
+  options.field_angle = setting.grid.lens.projection()->field_angle();
+  options.width = setting.grid.lens.projection()->width();
+  options.height = setting.grid.lens.projection()->height();
   const Camera camera(setting.scene, setting.grid.frame, options);
   Renderer::Statistics statistics;
-  Shader shader(camera, expected.lights, setting.options, statistics, materials);
+  const CentralEye eye(camera);
+  Shader shader(eye, expected.lights, setting.options, statistics, materials);
   for (int row = 0; row < setting.grid.rows(); ++row) {
     for (int column = 0; column < setting.grid.columns(); ++column) {
       Sample sample;
