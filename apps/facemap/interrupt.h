@@ -5,7 +5,7 @@
 
 namespace facemap::program {
 
-/// SIGINT, SIGTERM and SIGHUP from here on: they end the program at once, with exit code 128 + signal, or after the
+/// SIGINT, SIGTERM, SIGHUP, SIGPIPE and SIGXCPU from here on: they end the program at once, with exit code 128 + signal, or after the
 /// hold_signals that is under way. A limit on file sizes becomes an ordinary error.
 void catch_signals();
 

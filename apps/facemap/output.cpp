@@ -18,12 +18,14 @@ bool is_standard_output(const fs::path& output) { return output == "-"; }
 void check_output(const fs::path& output, const fs::path& model) {
   if (output.empty()) throw UsageError("no output file is given: add -o FILE, or -o - for standard output");
   if (is_standard_output(output)) return;
-  std::error_code ignored;
+  std::error_code ignored, error;
+  const fs::file_status status = fs::status(output, error);
+  if (error == std::errc::filename_too_long) throw Error(output.string() + ": cannot write: " + error.message());
   if (!model.empty() && fs::equivalent(output, model, ignored)) {
     throw UsageError(output.string() + ": the output would replace the model");
   }
-  if (fs::is_directory(output, ignored)) throw Error(output.string() + ": cannot write: it is a folder");
-  const bool is_special = fs::exists(output, ignored) && !fs::is_regular_file(output, ignored);
+  if (fs::is_directory(status)) throw Error(output.string() + ": cannot write: it is a folder");
+  const bool is_special = fs::exists(status) && !fs::is_regular_file(status);
   fs::path folder = output.parent_path();
   if (folder.empty()) folder = ".";
   if (!fs::is_directory(folder, ignored)) {

@@ -12,6 +12,7 @@ namespace facemap {
 namespace {
 
 constexpr int kNameAttempts = 100;
+constexpr std::size_t kMostNameBytes = 200;  // of a temporary's name: with what is added it still is a name
 
 }  // namespace
 
@@ -43,7 +44,8 @@ AtomicFile::~AtomicFile() {
 void AtomicFile::open_beside() {
   for (int attempt = 0; attempt < kNameAttempts; ++attempt) {
     std::string name = ".";
-    name += target_.filename().string() + "." + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".tmp";
+    name += target_.filename().string().substr(0, kMostNameBytes) + "." + std::to_string(::getpid()) + "-" +
+            std::to_string(attempt) + ".tmp";
     const std::filesystem::path candidate = target_.parent_path() / name;
     descriptor_ = ::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ >= 0) {

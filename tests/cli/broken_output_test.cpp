@@ -3,6 +3,7 @@
 #include <sys/mount.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 
 #include "cli/program.h"
@@ -34,6 +35,12 @@ const Outputs kOutputs[] = {
     {"-o a.png --aov z=z.pfm --aov id=i.npy --aov uv=u.exr --aov normal=n.png",
      {"a.png", "i.npy", "n.png", "u.exr", "z.pfm"}},
 };
+
+struct Signal {
+  const char* name;
+  int number;
+};
+constexpr Signal kSignals[] = {{"INT", SIGINT}, {"TERM", SIGTERM}, {"HUP", SIGHUP}, {"XCPU", SIGXCPU}};
 
 class BrokenOutput : public Program {
  protected:
@@ -110,6 +117,42 @@ TEST_F(BrokenOutput, AFullDiskLeavesTheOldFiles) {
   EXPECT_EQ(::umount2(disk.c_str(), MNT_DETACH), 0);
 }
 
+TEST_F(BrokenOutput, APipeThatIsClosedEndsTheRun) {
+  const Outcome outcome = run_shell("{ \"$facemap\" render cube.obj --size 1500x1500 -o - --format pfm --aov z=z.npy " +
+                                    std::string(kView) + "; echo $? >code; } | head -c 1000 >part");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(read_file("code"), std::to_string(128 + SIGPIPE) + "\n");
+  EXPECT_EQ(files(), "code part ");
+}
+
+TEST_F(BrokenOutput, WhatCannotBeWrittenIsFoundOutBeforeTheWork) {
+  const std::string long_name(300, 'a');
+  for (const char* end : {".png", ".jpg", ".exr", ".pfm", ".npy"}) {
+    SCOPED_TRACE(end);
+    const std::string render = "render cube.obj -q --size 8192x8192 --samples 8x8 -o ";  // would take long
+    expect_error(run(render + "absent/a" + end), 1,
+                 "absent/a" + std::string(end) + ": cannot write: there is no folder absent");
+    expect_error(run_shell("mkdir -p folder" + std::string(end) + "; \"$facemap\" " + render + "folder" + end), 1,
+                 "folder" + std::string(end) + ": cannot write: it is a folder");
+    expect_error(run(render + long_name + end), 1, long_name + end + ": cannot write: File name too long");
+  }
+  const std::string longest(251, 'b');
+  EXPECT_EQ(run("render cube.obj --size 8x8 -o " + longest + ".png" + kView).exit_code, 0)
+      << "the system's limit is ours";
+}
+
+TEST_F(BrokenOutput, ADiskThatMayNotBeWrittenToIsFoundOutBeforeTheWork) {
+  const fs::path disk = folder_ / "disk";
+  fs::create_directory(disk);
+  if (::mount("none", disk.c_str(), "tmpfs", MS_RDONLY, "size=48k") != 0) {
+    std::printf("a disk that may not be written to: skipped, no file system may be mounted here\n");
+    return;
+  }
+  expect_error(run("render cube.obj -q --size 8192x8192 --samples 8x8 -o disk/a.exr"), 1,
+               "disk/a.exr: cannot write: Read-only file system");
+  EXPECT_EQ(::umount2(disk.c_str(), MNT_DETACH), 0);
+}
+
 TEST_F(BrokenOutput, TooLittleMemoryLeavesTheOldFiles) {
   int failures = 0;
   for (const Outputs& outputs : kOutputs) {
@@ -139,21 +182,19 @@ TEST_F(BrokenOutput, SignalsLeaveWholeFilesAndNoTemporary) {
     const std::string command = "\"$facemap\" render cube.obj --size 900x900 " + std::string(outputs.flags) + kView;
     ASSERT_EQ(run_shell(command).exit_code, 0);
     const std::vector<std::string> complete = contents(outputs);
-    for (const char* signal : {"INT", "TERM", "HUP"}) {
+    for (const auto& [signal, number] : kSignals) {
       put_old_files(outputs);
       const std::string delay = std::to_string(random.between(0.01, 0.25));
       const Outcome outcome =
           run_shell("timeout --preserve-status -s " + std::string(signal) + " " + delay + " " + command);
       interrupted += outcome.exit_code != 0;
-      EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 128 + 2 || outcome.exit_code == 128 + 15 ||
-                  outcome.exit_code == 128 + 1)
-          << outcome.exit_code;
+      EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 128 + number) << outcome.exit_code;
       expect_whole_files(outputs, complete);
       EXPECT_EQ(files(), names_of(outputs));
     }
     remove_files();
   }
-  std::printf("%d of %zu runs were interrupted\n", interrupted, 3 * std::size(kOutputs));
+  std::printf("%d of %zu runs were interrupted\n", interrupted, std::size(kSignals) * std::size(kOutputs));
 }
 
 TEST_F(BrokenOutput, AKillLeavesWholeFilesAndDoesNotDisturbTheNextRun) {

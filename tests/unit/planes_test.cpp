@@ -246,6 +246,8 @@ TEST(Planes, AreTheSameByEachStrategyAndForEachNumberOfSamplesAndThreads) {
     view.position = Vector(random.direction() * 6.0);
     view.look_at = {0, 0, 0};
     view.field_angle = random.between(0.5, 6.0);
+    if (round % 3 == 1) view.lens = Lens::equirectangular(kSide, kSide);
+    if (round % 3 == 2) view.lens = Lens::opencv_fisheye({20, 20, 24, 24}, {0.1, 0.01, 0, 0}, kSide, kSide);
     std::vector<Light> lights(static_cast<std::size_t>(random.between(1, 10)));
     for (Light& light : lights) light.position = Vector(random.direction() * 5.0);
     Renderer::Options options = with_planes(every_plane());
@@ -260,6 +262,17 @@ TEST(Planes, AreTheSameByEachStrategyAndForEachNumberOfSamplesAndThreads) {
     expect_same_planes(first, Renderer(scene, view, lights, options).render());
     options.sampling = Renderer::Sampling::Edges;
     expect_same_planes(first, Renderer(scene, view, lights, options).render());
+    options = with_planes({Plane::Depth, Plane::Normal, Plane::Shadows});
+    options.crop = PixelBox{5, 7, 31, 20};
+    const Image part = Renderer(scene, view, lights, options).render();
+    for (int y = 0; y < 20; ++y) {
+      for (int x = 0; x < 31; ++x) {
+        const auto i = static_cast<std::size_t>(y * 31 + x), whole = static_cast<std::size_t>((y + 7) * kSide + x + 5);
+        EXPECT_EQ(part.depths[i], first.depths[whole]);
+        EXPECT_EQ(part.normals[i], first.normals[whole]);
+        EXPECT_EQ(part.shadows[i], first.shadows[whole]);
+      }
+    }
     options = with_planes({});
     const Image plain = Renderer(scene, view, lights, options).render();
     EXPECT_EQ(plain.pixels, first.pixels) << "planes change nothing";
