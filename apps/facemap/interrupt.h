@@ -5,8 +5,8 @@
 
 namespace facemap::program {
 
-/// SIGINT, SIGTERM, SIGHUP, SIGPIPE and SIGXCPU from here on: they end the program at once, with exit code 128 + signal, or after the
-/// hold_signals that is under way. A limit on file sizes becomes an ordinary error.
+/// SIGINT, SIGTERM, SIGHUP, SIGPIPE and SIGXCPU from here on: they end the program at once, with exit code 128 +
+/// signal, or after the hold_signals that is under way. A limit on file sizes becomes an ordinary error.
 void catch_signals();
 
 /// Runs `work`, which is short; a signal that comes meanwhile waits until it is done, and then ends the program. For

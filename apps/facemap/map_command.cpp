@@ -80,7 +80,8 @@ Command map_command() {
   command.options = {
       {"MODEL", "", "", "the model: an OBJ, glTF, PLY or STL file", into(a.model, path)},
       {"--at", "X,Y,Z", "", "the point: a light's or a camera's place", into(a.at, parse_vector)},
-      {"-o,--output", "FILE", "", "the picture: PNG; - writes it to standard output", into(a.output, path)},
+      {"-o,--output", "FILE", "", "the picture: .png, .jpg, .exr, .pfm or .npy; - writes PNG to standard output",
+       into(a.output, path)},
       {"--size", "WxH", "1024x1024", "texels; the legend comes on top", into(a.size, parse_size)},
       {"--field-angle", "DEG", "360", "degrees across the shorter side", into(a.field_angle, parse_degrees)},
       {"--look-at", "X,Y,Z", "the model's centre", "the point in the middle", into(a.look_at, parse_vector)},
