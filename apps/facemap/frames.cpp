@@ -23,6 +23,19 @@ void check_number(const char* flag, std::size_t given, std::size_t cameras) {
   throw UsageError(reason + "; give it once for all cameras or once for each");
 }
 
+void check_lens(const WantedFrames& wanted) {
+  check(wanted.lens);
+  if (wanted.lens.name && wanted.projection) throw UsageError("--projection and --lens both name the lens; give one");
+  if (!wanted.lens.has_field_angle() && !wanted.field_angles.empty()) {
+    throw UsageError("--field-angle is for the surface and plane lenses");
+  }
+  if (!wanted.lens.pose) return;
+  if (!wanted.cameras.empty() || !wanted.look_ats.empty() || !wanted.ups.empty()) {
+    throw UsageError("--opencv-pose takes the place of --camera, --look-at and --up; give one or the other");
+  }
+  if (wanted.turntable > 0) throw UsageError("--turntable needs a point to look at, which --opencv-pose has not");
+}
+
 }  // namespace
 
 std::vector<WantedView> WantedFrames::each() const {
@@ -31,13 +44,20 @@ std::vector<WantedView> WantedFrames::each() const {
   check_number("--field-angle", field_angles.size(), cameras.size());
   if (turntable > 0 && cameras.size() > 1)
     throw UsageError("--turntable turns one camera; --camera is given more often");
+  check_lens(*this);
   std::vector<WantedView> views(std::max<std::size_t>(1, cameras.size()));
   for (std::size_t i = 0; i < views.size(); ++i) {
     views[i].camera = value_of(cameras, i);
     views[i].look_at = value_of(look_ats, i);
     views[i].up = value_of(ups, i);
     views[i].field_angle = value_of(field_angles, i).value_or(View().field_angle);
-    views[i].projection = projection;
+    views[i].projection = projection.value_or(ProjectionKind::Surface);
+    views[i].lens = lens;
+  }
+  if (lens.pose) {
+    views[0].camera = lens.pose->position();
+    views[0].look_at = lens.pose->look_at();
+    views[0].up = lens.pose->up();
   }
   return views;
 }
@@ -55,9 +75,12 @@ FrameRange WantedFrames::selected() const {
                    std::to_string(all - 1));
 }
 
-std::vector<View> complete_views(const Scene& scene, const WantedFrames& wanted) {
+std::vector<View> complete_views(const Scene& scene, const WantedFrames& wanted, const Size& size) {
   std::vector<View> views;
-  for (const WantedView& view : wanted.each()) views.push_back(complete_view(scene, view));
+  for (WantedView& view : wanted.each()) {
+    view.size = size;
+    views.push_back(complete_view(scene, view));
+  }
   return wanted.turntable > 0 ? turntable(views[0], wanted.turntable) : views;
 }
 

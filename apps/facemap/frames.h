@@ -12,11 +12,13 @@ namespace facemap::program {
 struct WantedFrames {
   std::vector<Vector> cameras, look_ats, ups;
   std::vector<double> field_angles;
-  ProjectionKind projection = ProjectionKind::Surface;
+  std::optional<ProjectionKind> projection;
+  WantedLens lens;
   int turntable = 0;                ///< pictures; 0: not wanted
   std::optional<FrameRange> range;  ///< which of them; all if it is not said
 
-  /// One a camera; the other lists have no value, one for all cameras or one for each, else UsageError.
+  /// One a camera; the other lists have no value, one for all cameras or one for each, else UsageError. So it is for
+  /// flags that do not go with the lens.
   std::vector<WantedView> each() const;
 
   /// How many pictures there are. Throws as above.
@@ -26,7 +28,7 @@ struct WantedFrames {
   FrameRange selected() const;
 };
 
-/// All views, completed. A turntable's first is the given one.
-std::vector<View> complete_views(const Scene& scene, const WantedFrames& wanted);
+/// All views, completed, for pictures of that size. A turntable's first is the given one.
+std::vector<View> complete_views(const Scene& scene, const WantedFrames& wanted, const Size& size);
 
 }  // namespace facemap::program

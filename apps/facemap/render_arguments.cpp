@@ -1,6 +1,7 @@
 #include "render_arguments.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -43,12 +44,23 @@ std::function<void(const std::string&)> append_to(std::vector<Value>& values, Pa
   return [&values, parse](const std::string& text) { values.push_back(parse(text)); };
 }
 
+template <typename Field>
+struct ChosenOf {
+  using Type = Field;
+};
+template <typename Field>
+struct ChosenOf<std::optional<Field>> {
+  using Type = Field;
+};
+template <typename Field>
+using Chosen = typename ChosenOf<Field>::Type;
+
 /// A row whose value is one of `choices`, in the order of the field's enumerators.
 template <typename Field>
 Option one_of(const std::string& flags, const std::string& default_text, const std::string& help, Field& field,
               const std::vector<std::string>& choices) {
   const auto set = [&field, choices](const std::string& text) {
-    field = static_cast<Field>(parse_choice(text, choices));
+    field = static_cast<Chosen<Field>>(parse_choice(text, choices));
   };
   return {flags, "KIND", default_text, help, set, false, choices};
 }
@@ -172,9 +184,11 @@ std::vector<Option> render_options(RenderArguments& a) {
        "the "
        "model's name, {n} for the picture's number from 0, {n:04} for the same with four digits",
        into(a.files.picture, parse_path)},
-      {"--size", "WxH", "1024x1024", "width and height in pixels", into(a.size, parse_size)},
+      {"--size", "WxH", "1024x1024", "width and height in pixels", into(a.wanted_size, parse_size)},
   };
+  append(options, part_options(a.part));
   append(options, view_options(a));
+  append(options, lens_options(a.frames.lens));
   append(options, light_options(a));
   append(options, quality_options(a));
   append(options, output_options(a));
@@ -261,8 +275,9 @@ std::vector<FrameFiles> check_files(const RenderArguments& arguments) {
 
 Renderer::Options renderer_options(const RenderArguments& arguments) {
   Renderer::Options options = arguments.options;
-  options.width = arguments.size.width;
-  options.height = arguments.size.height;
+  options.width = arguments.size().width;
+  options.height = arguments.size().height;
+  options.crop = arguments.part.pixels(arguments.size());
   options.sampling = arguments.samples.sampling;
   options.samples = arguments.samples.side;
   options.planes = arguments.layers;

@@ -3,11 +3,13 @@
 #include <facemap/renderer.h>
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "frame_writer.h"
 #include "frames.h"
 #include "options.h"
+#include "picture_part.h"
 #include "text_values.h"
 
 namespace facemap::program {
@@ -20,7 +22,8 @@ struct RenderArguments {
   FrameFiles files;  ///< names that may hold {n} and {model}
   FormatSettings format;
   PlaneSet layers;  ///< planes that the picture's file holds itself
-  Size size;
+  std::optional<Size> wanted_size;
+  WantedPart part;
   WantedFrames frames;
   std::vector<Light> lights;
   float intensity = 1;
@@ -28,6 +31,8 @@ struct RenderArguments {
   Renderer::Options options;
   StatsFormat stats = StatsFormat::None;
   bool quiet = false;
+
+  Size size() const { return wanted_size.value_or(made_up_size(frames.lens)); }
 };
 
 /// The rows of the table; they set `arguments`, which must outlive them.

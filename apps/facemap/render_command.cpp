@@ -77,7 +77,7 @@ void render(const RenderArguments& arguments) {
   stats.load_ms = phase.lap();
 
   const FrameRange range = arguments.frames.selected();
-  const std::vector<View> all_views = complete_views(scene, arguments.frames);
+  const std::vector<View> all_views = complete_views(scene, arguments.frames, arguments.size());
   const std::vector<View> views(all_views.begin() + static_cast<std::ptrdiff_t>(range.first),
                                 all_views.begin() + static_cast<std::ptrdiff_t>(range.last) + 1);
   const std::vector<Light> lights = lights_of(arguments, scene);
@@ -88,8 +88,8 @@ void render(const RenderArguments& arguments) {
 
   stats.total_ms = total.lap();
   stats.model = arguments.model.string();
-  stats.width = arguments.size.width;
-  stats.height = arguments.size.height;
+  stats.width = arguments.size().width;
+  stats.height = arguments.size().height;
   stats.light_count = lights.size();
   if (arguments.stats == StatsFormat::Json) std::cout << stats_json(stats, scene) << std::flush;
   if (arguments.stats == StatsFormat::Text) std::cout << stats_text(stats, scene) << std::flush;

@@ -117,6 +117,16 @@ double parse_degrees(const std::string& text) {
   return degrees * (kPi / 180);
 }
 
+std::vector<double> parse_numbers(const std::string& text) {
+  std::vector<double> numbers;
+  for (const std::string& part : split(text, ',')) {
+    double number = 0;
+    if (!read(part, number) || !std::isfinite(number)) refuse(text, "numbers with commas between them");
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
 Vector parse_vector(const std::string& text) {
   const std::vector<float> numbers = read_numbers(text);
   if (numbers.size() != 3) refuse(text, "three numbers x,y,z");

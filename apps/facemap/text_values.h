@@ -25,6 +25,9 @@ int parse_threads(const std::string& text);
 /// Degrees, as radians.
 double parse_degrees(const std::string& text);
 
+/// Numbers with commas between them, at least one.
+std::vector<double> parse_numbers(const std::string& text);
+
 /// "x,y,z".
 Vector parse_vector(const std::string& text);
 

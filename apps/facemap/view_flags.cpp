@@ -20,14 +20,16 @@ View complete_view(const Scene& scene, const WantedView& wanted) {
   View view;
   view.field_angle = wanted.field_angle;
   view.projection = wanted.projection;
+  set_lens(wanted.lens, wanted.size, view);
   if (wanted.up) view.up = *wanted.up;
   const Vector centre(scene.centre());
+  const View made_up = make_up_view(scene, view);
+  view.height = wanted.lens.height.value_or(made_up.height);
   if (wanted.camera) {
     view.position = *wanted.camera;
     view.look_at = wanted.look_at.value_or(centre);
     if (!wanted.look_at && view.position == centre) view.look_at = centre + Vector(0, 0, -1);
   } else {
-    const View made_up = make_up_view(scene, view);
     view.look_at = wanted.look_at.value_or(made_up.look_at);
     view.position = made_up.position + (view.look_at - made_up.look_at);
   }
@@ -36,8 +38,12 @@ View complete_view(const Scene& scene, const WantedView& wanted) {
 }
 
 std::string flags_of(const View& view) {
-  std::string flags = "--camera " + text_of(view.position) + " --look-at " + text_of(view.look_at) + " --up " +
-                      text_of(view.up) + " --field-angle " + degrees_text(view.field_angle);
+  std::string flags =
+      "--camera " + text_of(view.position) + " --look-at " + text_of(view.look_at) + " --up " + text_of(view.up);
+  if (view.is_parallel)
+    return flags + " --lens orthographic --ortho-height " + text_of(static_cast<float>(view.height));
+  if (view.lens) return flags;  // its own flags are given
+  flags += " --field-angle " + degrees_text(view.field_angle);
   if (view.projection == ProjectionKind::Plane) flags += " --projection plane";
   return flags;
 }

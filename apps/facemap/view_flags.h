@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "lens_flags.h"
+
 namespace facemap::program {
 
 /// What a user said about the view; the rest is made up.
@@ -13,8 +15,10 @@ struct WantedView {
   std::optional<Vector> camera, look_at, up;
   double field_angle = View().field_angle;
   ProjectionKind projection = ProjectionKind::Surface;
+  WantedLens lens;
+  Size size;  ///< of the picture, for the lens
 
-  bool is_complete() const { return camera && look_at; }
+  bool is_complete() const { return camera && look_at && (!lens.is(LensName::Orthographic) || lens.height); }
 };
 
 /// A whole view. A camera alone looks at the scene's centre; a point to look at alone is seen from the

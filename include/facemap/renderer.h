@@ -38,7 +38,8 @@ struct PixelBox {
   int x = 0, y = 0, width = 0, height = 0;
 };
 
-/// A view in which the scene's bounding sphere just fits the field angle (50 degrees), from direction (0.5, 0.6, 1).
+/// A view in which the scene's bounding sphere just fits the field angle (50 degrees) or the lens, from direction
+/// (0.5, 0.6, 1); the height of an orthographic one is the sphere's diameter.
 View make_up_view(const Scene& scene, const View& wanted = View());
 
 /// Eight lights on two rings about the scene, intensity 1/4 each.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/dvector.h"
 #include "math/elementary.h"
 #include "simd/floating_point_mode.h"
 
@@ -14,11 +15,27 @@ namespace {
 // put it inside.
 constexpr double kClosestApproach = 0.05;
 
+// Radians: a lens whose sight passes its picture by shows a scene from so far away, and not where it looks.
+constexpr double kLeastHalfField = 0x1p-6;
+
 constexpr int kMadeUpLights = 8;
 
 // cos(2 pi k / 8); the sine is the cosine of two steps back.
 constexpr double kHalfRoot = 0.70710678118654752;
 constexpr double kCosines[kMadeUpLights] = {1, kHalfRoot, 0, -kHalfRoot, -1, -kHalfRoot, 0, kHalfRoot};
+
+// The least angle between the sight and the middles of the picture's borders, at most 90 degrees.
+double half_field(const Lens& lens) {
+  const double w = lens.width(), h = lens.height();
+  double least = elementary::kPi / 2;
+  if (lens.piece_width() < lens.width() || lens.piece_height() < lens.height()) return least;  // all directions
+  for (const MapPoint& place : {MapPoint(0, h / 2), MapPoint(w, h / 2), MapPoint(w / 2, 0), MapPoint(w / 2, h)}) {
+    const std::optional<DVector> d = lens.direction(place);
+    const double angle = d ? angle_between(*d, DVector(0, 0, 1)) : lens.largest_angle();
+    least = std::min(least, std::max(angle, kLeastHalfField));
+  }
+  return least;
+}
 
 }  // namespace
 
@@ -27,8 +44,10 @@ View make_up_view(const Scene& scene, const View& wanted) {
   View view = wanted;
   const DVector from(0.5, 0.6, 1);
   const double radius = scene.bounding_radius();
-  const double half = std::min(wanted.field_angle / 2, elementary::kPi / 2);
-  const double distance = std::max(radius / elementary::sin(half), radius * (1 + kClosestApproach));
+  const double half = wanted.lens ? half_field(*wanted.lens) : std::min(wanted.field_angle / 2, elementary::kPi / 2);
+  view.height = 2 * radius;
+  const double distance =
+      wanted.is_parallel ? 2 * radius : std::max(radius / elementary::sin(half), radius * (1 + kClosestApproach));
   const double scale = distance / std::sqrt(from.x * from.x + from.y * from.y + from.z * from.z);
   view.look_at = Vector(scene.centre());
   view.position = Vector(scene.centre() + from * scale);
