@@ -174,6 +174,14 @@ void append(std::vector<Option>& options, std::vector<Option> more) {
   options.insert(options.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
+/// Throws for a lens that pictures of this size cannot have, and for a part that they have not.
+void check_picture(const RenderArguments& arguments) {
+  arguments.frames.each();
+  View view;
+  set_lens(arguments.frames.lens, arguments.size(), view);
+  arguments.part.pixels(arguments.size());
+}
+
 }  // namespace
 
 std::vector<Option> render_options(RenderArguments& a) {
@@ -248,6 +256,7 @@ class KnownFiles {
 }  // namespace
 
 std::vector<FrameFiles> check_files(const RenderArguments& arguments) {
+  check_picture(arguments);
   if (arguments.model.empty()) throw UsageError("no model is given");
   if (arguments.files.picture.empty()) check_picture_output(arguments.files.picture, arguments.model);
   const FrameRange range = arguments.frames.selected();
