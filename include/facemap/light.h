@@ -7,7 +7,7 @@
 
 namespace facemap {
 
-/// A light as a user states it. Radiance = colour * intensity * cos [/ distance^2].
+/// A light as a user states it. Radiance = colour * intensity * cos [/ distance^2] [* cone] [* range]: docs/lights.md.
 struct Light {
   enum class Kind {
     Point,        ///< shines in all directions from its position

@@ -134,7 +134,7 @@ class Renderer {
 
   Image make(const Request& request);
   Image paint_by_lists(const Request& request);
-  void build_lists(const Request& request);
+  void build_lists(const Request& request, bool of_all);
   void load_materials();
   void fill_planes(Image& image);
 

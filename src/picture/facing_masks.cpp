@@ -4,10 +4,11 @@
 
 #include "map/face_planes.h"
 #include "math/exact_sign.h"
+#include "math/parallel_signs.h"
 
 namespace facemap {
 
-FacingMasks::FacingMasks(const Scene& scene, const Vector& camera, const std::vector<Vector>& lights)
+FacingMasks::FacingMasks(const Scene& scene, const Vector& camera, const LightPlaces& lights)
     : scene_(scene), camera_(camera), lights_(lights) {}
 
 void FacingMasks::store(const FaceSlots& faces, const std::int64_t* slots, std::size_t count, std::uint8_t* masks) {
@@ -22,11 +23,13 @@ void FacingMasks::store(const FaceSlots& faces, const std::int64_t* slots, std::
 // The eight lights of a mask's byte.
 void FacingMasks::find_facing(const FaceSlots& faces, std::size_t byte) {
   const std::size_t first = byte * 8, count = std::min<std::size_t>(8, lights_.size() - first);
-  float positions[8][3];
+  float places[8][3];
+  unsigned parallel = 0;
   for (std::size_t l = 0; l < count; ++l) {
-    for (int axis = 0; axis < 3; ++axis) positions[l][axis] = lights_[first + l][axis];
+    for (int axis = 0; axis < 3; ++axis) places[l][axis] = lights_.at[first + l][axis];
+    parallel |= unsigned{lights_.is_parallel[first + l]} << l;
   }
-  simd::find_facing(faces.planes, positions, static_cast<int>(count), facing_, unsure_);
+  simd::find_facing(faces.planes, places, static_cast<int>(count), parallel, facing_, unsure_);
   for (std::size_t slot = 0; slot < faces.planes.count; ++slot) {
     if (unsure_[slot] == 0) continue;
     for (std::size_t l = 0; l < count; ++l) {
@@ -40,7 +43,9 @@ bool FacingMasks::is_facing(std::uint32_t face, std::size_t light) {
   const auto [entry, is_new] = known_.try_emplace(static_cast<std::uint64_t>(face) * lights_.size() + light, false);
   if (is_new) {
     const Triangle triangle = triangle_of(scene_, face);
-    entry->second = side(triangle, camera_) * side(triangle, lights_[light]) > 0;
+    const Vector& at = lights_.at[light];
+    const int side_of_light = lights_.is_parallel[light] != 0 ? side_along(triangle, at) : side(triangle, at);
+    entry->second = side(triangle, camera_) * side_of_light > 0;
   }
   return entry->second;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "picture/face_slots.h"
+#include "picture/light_places.h"
 
 namespace facemap {
 
@@ -14,7 +15,7 @@ namespace facemap {
 class FacingMasks {
  public:
   /// All must outlive it.
-  FacingMasks(const Scene& scene, const Vector& camera, const std::vector<Vector>& lights);
+  FacingMasks(const Scene& scene, const Vector& camera, const LightPlaces& lights);
 
   /// Bytes of a mask: ceil(lights / 8).
   std::size_t stride() const { return (lights_.size() + 7) / 8; }
@@ -28,7 +29,7 @@ class FacingMasks {
 
   const Scene& scene_;
   Vector camera_;
-  const std::vector<Vector>& lights_;
+  const LightPlaces& lights_;
   std::int32_t facing_[simd::kSeenBatch], unsure_[simd::kSeenBatch];
   std::unordered_map<std::uint64_t, bool> known_;  // by face and light, where doubles left it open
 };

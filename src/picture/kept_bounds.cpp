@@ -7,18 +7,19 @@
 
 namespace facemap {
 
-void KeptBounds::make(const Scene& scene, const std::vector<Vector>& lights, const ClosedParts* closed,
+void KeptBounds::make(const Scene& scene, const LightPlaces& lights, const ClosedParts* closed,
                       const std::vector<std::uint8_t>& outside_camera, const Executor& executor) {
   outside_camera_ = outside_camera;
   work_.resize(static_cast<std::size_t>(executor.threads()));
   std::vector<std::optional<LightBounds>> made(lights.size());
   const std::vector<FaceNeighbours> neighbours = find_face_neighbours(scene);
   executor.for_each(lights.size(), [&](std::size_t l, int) {
+    if (lights.is_parallel[l] != 0) return;
+    const Vector& light = lights.at[l];
     std::vector<std::uint8_t> skippable;
-    if (closed != nullptr) skippable = closed->skippable_entries(scene, outside_camera, lights[l]);
-    const bool wants_lists = can_ask_lists(scene, lights[l], 0);  // else no picture's points will ask them
-    made[l] =
-        LightBounds::find(scene, lights[l], skippable.empty() ? nullptr : skippable.data(), neighbours, wants_lists);
+    if (closed != nullptr) skippable = closed->skippable_entries(scene, outside_camera, light);
+    const bool wants_lists = can_ask_lists(scene, light, 0);  // else no picture's points will ask them
+    made[l] = LightBounds::find(scene, light, skippable.empty() ? nullptr : skippable.data(), neighbours, wants_lists);
   });
   of_lights_ = std::move(made);
 }

@@ -9,6 +9,7 @@
 #include "parallel/executor.h"
 #include "picture/decide_points.h"
 #include "picture/light_bounds.h"
+#include "picture/light_places.h"
 #include "scene/closed_parts.h"
 
 namespace facemap {
@@ -17,8 +18,9 @@ namespace facemap {
 class KeptBounds {
  public:
   /// `closed`, or null: what the camera is `outside` of (ClosedParts::outside) decides which faces may be left out, so
-  /// the bounds are good for cameras of the same answer only. Lights are tasks of the executor.
-  void make(const Scene& scene, const std::vector<Vector>& lights, const ClosedParts* closed,
+  /// the bounds are good for cameras of the same answer only. Parallel lights have none. Lights are tasks of the
+  /// executor.
+  void make(const Scene& scene, const LightPlaces& lights, const ClosedParts* closed,
             const std::vector<std::uint8_t>& outside_camera, const Executor& executor);
 
   bool are_made() const noexcept { return !of_lights_.empty(); }

@@ -68,7 +68,8 @@ void clear_blocked(const LightWork& work, const SampleGrid& grid, const MovedPoi
 
   for_each_light(
       work, seen.stride, seen.masks, counters, [&](std::size_t l, const MaskBit& mask, int worker, Counters& own) {
-        const Vector& light = work.lights[l];
+        if (work.lights.is_parallel[l] != 0) return;
+        const Vector& light = work.lights.at[l];
         ShadowScratch& scratch = work.scratch[static_cast<std::size_t>(worker)];
         FacePairs pairs(scene);
         const BlocksExactly is_between = [&](std::size_t point, std::uint32_t face, int face_side) {
@@ -124,7 +125,7 @@ void clear_blocked(const LightWork& work, const SampleGrid& grid, const MovedPoi
   if (work.bounds != nullptr) work.bounds->tidy();
 }
 
-void clear_blocked_by_lists(const std::vector<PointLight>& lists, const Scene& scene, const SampleGrid& grid,
+void clear_blocked_by_lists(const std::vector<const LightLists*>& lists, const Scene& scene, const SampleGrid& grid,
                             const Executor& executor, const MovedPoints& moved, SeenPoints& seen, Counters& counters) {
   const AskedPoints& points = seen.points;
   std::mutex merging;
@@ -134,18 +135,19 @@ void clear_blocked_by_lists(const std::vector<PointLight>& lists, const Scene& s
       for (std::size_t l = 0; l < lists.size(); ++l) {
         std::uint8_t& mask = seen.masks[i * seen.stride + l / 8];
         const auto bit = static_cast<std::uint8_t>(1u << (l % 8));
-        if ((mask & bit) != 0 && is_blocked(lists[l])) mask = static_cast<std::uint8_t>(mask & ~bit);
+        if (lists[l] != nullptr && (mask & bit) != 0 && is_blocked(*lists[l]))
+          mask = static_cast<std::uint8_t>(mask & ~bit);
       }
     };
     for (std::size_t i = first; i < last; ++i) {
       if (points.faces[i] == kNoOwnFace) {
         const Vector& position = moved.position_of(static_cast<std::uint32_t>(i));
-        clear_lights(i, [&](const PointLight& light) { return !light.get_lighten_up(position, &own); });
+        clear_lights(i, [&](const LightLists& light) { return !light.is_lit(position, &own); });
         continue;
       }
       const TruePoint p = true_point(scene, grid, points.samples[i], points.faces[i]);
       const SurfacePoint point{p.K, p.d, p.face, static_cast<FaceId>(points.faces[i]), p.s};
-      clear_lights(i, [&](const PointLight& light) { return light.is_blocked(point, &own); });
+      clear_lights(i, [&](const LightLists& light) { return light.is_blocked(point, &own); });
     }
     const std::scoped_lock lock(merging);
     counters += own;

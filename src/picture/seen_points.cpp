@@ -33,8 +33,8 @@ struct Work {
 
 class PointFinder {
  public:
-  PointFinder(const Scene& scene, const SampleGrid& grid, const NearestFaces& nearest,
-              const std::vector<Vector>& lights, const Executor& executor)
+  PointFinder(const Scene& scene, const SampleGrid& grid, const NearestFaces& nearest, const LightPlaces& lights,
+              const Executor& executor)
       : scene_(scene), grid_(grid), nearest_(nearest), executor_(executor), rays_(grid), memory_(nearest.spare) {
     const Vector& camera = grid.frame.position();
     for (int i = 0; i < executor.threads(); ++i) {
@@ -204,7 +204,7 @@ class PointFinder {
 }  // namespace
 
 SeenPoints find_seen_points(const Scene& scene, const SampleGrid& grid, const NearestFaces& nearest,
-                            const std::vector<Vector>& lights, const Executor& executor) {
+                            const LightPlaces& lights, const Executor& executor) {
   return PointFinder(scene, grid, nearest, lights, executor).find();
 }
 

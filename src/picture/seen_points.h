@@ -7,6 +7,7 @@
 
 #include "parallel/executor.h"
 #include "picture/asked_points.h"
+#include "picture/light_places.h"
 #include "picture/nearest_faces.h"
 #include "picture/sample_grid.h"
 
@@ -23,6 +24,6 @@ struct SeenPoints {
 
 /// `nearest` must be that of `grid`. The same for any number of threads.
 SeenPoints find_seen_points(const Scene& scene, const SampleGrid& grid, const NearestFaces& nearest,
-                            const std::vector<Vector>& lights, const Executor& executor);
+                            const LightPlaces& lights, const Executor& executor);
 
 }  // namespace facemap

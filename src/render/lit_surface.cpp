@@ -1,8 +1,7 @@
 #include "render/lit_surface.h"
 
-#include <cmath>
-
 #include "math/dvector.h"
+#include "render/light_sources.h"
 
 namespace facemap {
 
@@ -16,15 +15,14 @@ LitSurface::LitSurface(const SeenSurface& seen, const SurfaceLook& look, const D
   if (!look.is_unlit) radiance_ += surroundings.at(look.normal) * reflected_ambient(look.reflection);
 }
 
-void LitSurface::add(const DVector& light, const DVector& color, double intensity, bool inverse_square) {
+void LitSurface::add(const simd::LightSource& light) {
   if (look_.is_unlit) return;
-  const DVector to_light = light - position_;
-  const double squared = dot(to_light, to_light);
-  if (!(squared > 0) || !(dot(face_normal_, to_light) > 0)) return;
-  const double distance = std::sqrt(squared);
+  const auto [to_light, distance, share] = arrival(light, position_);
+  if (!(distance > 0) || !(dot(face_normal_, to_light) > 0)) return;
   const double cosine = dot(look_.normal, to_light) / distance;
   if (!(cosine > 0)) return;
-  const double strength = intensity * cosine * (inverse_square ? 1 / squared : 1);
+  const double strength = light.intensity * cosine * share;
+  const DVector color(light.color[0], light.color[1], light.color[2]);
   radiance_ += color * strength * reflected(look_.reflection, look_.normal, to_light / distance, view_);
 }
 

@@ -4,6 +4,7 @@
 
 #include "material/material_table.h"
 #include "render/surroundings.h"
+#include "simd/light_source.h"
 
 namespace facemap {
 
@@ -16,7 +17,7 @@ class LitSurface {
 
   /// A light that reaches the point. What stands behind the face's shading normal adds nothing even if the relief is
   /// turned to it: light does not pass through.
-  void add(const DVector& light, const DVector& color, double intensity, bool inverse_square);
+  void add(const simd::LightSource& light);
 
   const DVector& radiance() const { return radiance_; }
 

@@ -34,8 +34,9 @@ std::vector<T> cut_out(const std::vector<T>& plane, std::size_t size, const Pixe
 
 }  // namespace
 
-Painter::Painter(const Eye& eye, std::span<const PointLight> lights, const Renderer::Options& options,
-                 const MaterialTable* materials, const Executor& executor, Report report)
+Painter::Painter(const Eye& eye, std::span<const simd::LightSource> lights, const ListsOfLights& lists,
+                 const Renderer::Options& options, const MaterialTable* materials, const Executor& executor,
+                 Report report)
     : eye_(eye), options_(options), executor_(executor), report_(std::move(report)) {
   const bool edges = options.sampling == Renderer::Sampling::Edges;
   made_ = edges ? with_neighbours(made_pixels(options), options) : made_pixels(options);
@@ -48,7 +49,7 @@ Painter::Painter(const Eye& eye, std::span<const PointLight> lights, const Rende
   if (options.planes.has(Plane::Lights) || edges)
     image_.lights.resize(pixels * static_cast<std::size_t>(image_.light_bytes()));
   for (int i = 0; i < executor.threads(); ++i) {
-    workers_.push_back(std::make_unique<Worker>(eye, lights, options, materials));
+    workers_.push_back(std::make_unique<Worker>(eye, lights, lists, options, materials));
   }
 }
 

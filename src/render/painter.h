@@ -21,8 +21,8 @@ class Painter {
   /// `report` is called now and then with the fraction done; it may throw.
   using Report = std::function<void(double)>;
 
-  Painter(const Eye& eye, std::span<const PointLight> lights, const Renderer::Options& options,
-          const MaterialTable* materials, const Executor& executor, Report report);
+  Painter(const Eye& eye, std::span<const simd::LightSource> lights, const ListsOfLights& lists,
+          const Renderer::Options& options, const MaterialTable* materials, const Executor& executor, Report report);
 
   /// Call once. Adds queries, tests and upsampled pixels to `statistics`.
   Image paint(Renderer::Statistics& statistics);
@@ -33,9 +33,9 @@ class Painter {
     Shader shader;
     Sample sample, grid_sample;
 
-    Worker(const Eye& eye, std::span<const PointLight> lights, const Renderer::Options& options,
-           const MaterialTable* materials)
-        : shader(eye, lights, options, statistics, materials) {}
+    Worker(const Eye& eye, std::span<const simd::LightSource> lights, const ListsOfLights& lists,
+           const Renderer::Options& options, const MaterialTable* materials)
+        : shader(eye, lights, lists, options, statistics, materials) {}
   };
 
   void for_each_row(double done_before, double share, const std::function<void(int y, Worker&)>& paint_row);

@@ -2,16 +2,16 @@
 #include <facemap/renderer.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <mutex>
-#include <optional>
 
+#include "map/light_lists.h"
 #include "material/material_table.h"
 #include "math/dvector.h"
 #include "math/elementary.h"
 #include "parallel/executor.h"
 #include "render/cost_model.h"
+#include "render/light_sources.h"
 #include "render/painter.h"
 #include "render/picture_frame.h"
 #include "render/planes.h"
@@ -29,6 +29,24 @@ bool is_valid(const Color& c) {
   return c.r >= 0 && c.g >= 0 && c.b >= 0 && std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
 }
 
+bool is_finite(const Vector& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+void validate(const Light& light, const std::string& name) {
+  const bool is_parallel = light.kind == Light::Kind::Directional;
+  if (!is_parallel && !is_finite(light.position)) throw Error("position of " + name + " is not finite");
+  if (!is_valid(light.color) || !(light.intensity >= 0) || !std::isfinite(light.intensity)) {
+    throw Error("colour and intensity of " + name + " must be finite and not negative");
+  }
+  if (light.kind != Light::Kind::Point && (!is_finite(light.direction) || light.direction == Vector(0))) {
+    throw Error("direction of " + name + " must be finite and not zero");
+  }
+  if (light.kind == Light::Kind::Spot &&
+      !(light.inner_angle >= 0 && light.inner_angle <= light.outer_angle && light.outer_angle <= elementary::kPi)) {
+    throw Error("angles of " + name + " must be 0 or more, the inner within the outer, and that within 180 degrees");
+  }
+  if (!is_parallel && !(light.range > 0)) throw Error("range of " + name + " must be above 0");
+}
+
 void validate(const Renderer::Options& options, const std::vector<Light>& lights) {
   if (options.samples < 1 || options.samples > 16) throw Error("samples a side of a pixel must be 1 to 16");
   if (options.crop) {
@@ -44,14 +62,7 @@ void validate(const Renderer::Options& options, const std::vector<Light>& lights
   const double up = length(DVector(options.up));
   if (!(up > 0) || !std::isfinite(up)) throw Error("the up direction must be finite and not zero");
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    if (lights[i].kind != Light::Kind::Point) throw Error("light " + std::to_string(i) + " is not a point light");
-    const Vector& p = lights[i].position;
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-      throw Error("position of light " + std::to_string(i) + " is not finite");
-    }
-    if (!is_valid(lights[i].color) || !(lights[i].intensity >= 0) || !std::isfinite(lights[i].intensity)) {
-      throw Error("colour and intensity of light " + std::to_string(i) + " must be finite and not negative");
-    }
+    validate(lights[i], "light " + std::to_string(i));
   }
 }
 
@@ -79,7 +90,7 @@ struct Renderer::Kept {
 
   Executor executor;
   std::mutex reporting;
-  std::vector<PointLight> lists;  // empty until built
+  ListsOfLights lists;  // null until made
   TransposedState transposed;
   std::unique_ptr<MaterialTable> materials;      // made when colours are first wanted
   double spent_in_vain = 0, lost_to_bounds = 0;  // see PictureWork
@@ -140,7 +151,8 @@ Image Renderer::make(const Request& request) {
   work.samples = static_cast<std::size_t>(made.width) * static_cast<std::size_t>(made.height) *
                  static_cast<std::size_t>(options.samples) * static_cast<std::size_t>(options.samples);
   work.lights = lights_.size();
-  work.has_lists = kept_->lists.size() == lights_.size();
+  kept_->lists.resize(lights_.size());
+  work.has_lists = std::find(kept_->lists.begin(), kept_->lists.end(), nullptr) == kept_->lists.end();
   work.has_bounds = kept_->transposed.bounds.are_made();
   work.spent_in_vain = kept_->spent_in_vain;
   work.lost_to_bounds = kept_->lost_to_bounds;
@@ -154,13 +166,12 @@ Image Renderer::make(const Request& request) {
   statistics_.threads = kept_->executor.threads();
   if (request.wants_colours) load_materials();
   const bool by_lists = choice.strategy == Strategy::Lists;
-  if (by_lists) build_lists(request);
+  build_lists(request, by_lists);
   // The paper's renderer, sample by sample: what its builder and its way of sampling need.
   if (options.builder == Builder::Fill || options.sampling == Sampling::Edges) return paint_by_lists(request);
 
-  WholePicture picture(*scene_, view_, lights_, options, kept_->executor, kept_->transposed,
-                       by_lists ? &kept_->lists : nullptr, choice.keeps_bounds, kept_->materials.get(), statistics_,
-                       request.report);
+  WholePicture picture(*scene_, view_, lights_, options, kept_->executor, kept_->transposed, kept_->lists, by_lists,
+                       choice.keeps_bounds, kept_->materials.get(), statistics_, request.report);
   Image image = request.wants_colours ? picture.paint() : picture.look();
   if (!by_lists) {
     const PictureCost cost = estimate_cost(work);
@@ -194,25 +205,22 @@ void Renderer::load_materials() {
   statistics_.shade_ms += time.milliseconds();
 }
 
-void Renderer::build_lists(const Request& request) {
+// Directional lights have lists with either strategy.
+void Renderer::build_lists(const Request& request, bool of_all) {
   const Stopwatch time;
-  std::vector<PointLight>& lists = kept_->lists;
-  if (lists.size() != lights_.size()) {
-    std::vector<std::optional<PointLight>> made(lights_.size());
-    std::atomic<std::size_t> done = 0;
-    kept_->executor.for_each(made.size(), [&](std::size_t i, int) {
-      PointLight::Options options;
-      options.builder = request.options.builder;
-      made[i].emplace(*scene_, lights_[i].position, options);
-      made[i]->color = lights_[i].color;
-      made[i]->intensity = lights_[i].intensity;
-      const std::scoped_lock lock(kept_->reporting);
-      request.report(static_cast<double>(++done) / static_cast<double>(made.size()), "light maps");
-    });
-    lists.clear();
-    for (std::optional<PointLight>& light : made) lists.push_back(std::move(*light));
+  ListsOfLights& lists = kept_->lists;
+  std::vector<std::size_t> missing;
+  for (std::size_t l = 0; l < lists.size(); ++l) {
+    if (lists[l] == nullptr && (of_all || lights_[l].kind == Light::Kind::Directional)) missing.push_back(l);
   }
-  for (const PointLight& light : lists) statistics_.map_bytes += light.memory_bytes();
+  std::size_t done = 0;
+  kept_->executor.for_each(missing.size(), [&](std::size_t i, int) {
+    const std::size_t l = missing[i];
+    lists[l] = std::make_unique<LightLists>(*scene_, lights_[l], request.options.builder);
+    const std::scoped_lock lock(kept_->reporting);
+    request.report(static_cast<double>(++done) / static_cast<double>(missing.size()), "light maps");
+  });
+  for (const auto& of_light : lists) statistics_.map_bytes += of_light != nullptr ? of_light->memory_bytes() : 0;
   statistics_.light_maps_ms += time.milliseconds();
 }
 
@@ -226,7 +234,8 @@ Image Renderer::paint_by_lists(const Request& request) {
 
   const Stopwatch shade_time;
   const CentralEye eye(camera, lens);
-  Painter painter(eye, kept_->lists, request.options, kept_->materials.get(), kept_->executor,
+  const std::vector<simd::LightSource> sources = light_sources(lights_, request.options.falloff);
+  Painter painter(eye, sources, kept_->lists, request.options, kept_->materials.get(), kept_->executor,
                   [&](double fraction) { request.report(fraction, "shade"); });
   Image image = painter.paint(statistics_);
   statistics_.shade_ms += shade_time.milliseconds();

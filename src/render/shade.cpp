@@ -28,10 +28,11 @@ struct Shader::Surface {
   Vector moved{0};
 };
 
-Shader::Shader(const Eye& eye, std::span<const PointLight> lights, const Renderer::Options& options,
-               Renderer::Statistics& statistics, const MaterialTable* materials)
+Shader::Shader(const Eye& eye, std::span<const simd::LightSource> lights, const ListsOfLights& lists,
+               const Renderer::Options& options, Renderer::Statistics& statistics, const MaterialTable* materials)
     : eye_(eye),
       lights_(lights),
+      lists_(lists),
       options_(options),
       statistics_(statistics),
       materials_(materials),
@@ -81,17 +82,18 @@ Shader::Surface Shader::surface_at(const Eye::Ray& ray, const Camera::Hit& hit) 
   return surface;
 }
 
-bool Shader::is_lit(const PointLight& light, const Surface& surface) {
+bool Shader::is_lit(std::size_t light, const Surface& surface) {
+  if (!reaches(lights_[light], surface.position)) return false;
   ++statistics_.light_queries;
-  return surface.is_moved ? light.get_lighten_up(surface.moved, &statistics_.light_tests)
-                          : light.get_lighten_up(surface.point, &statistics_.light_tests);
+  return surface.is_moved ? lists_[light]->is_lit(surface.moved, &statistics_.light_tests)
+                          : lists_[light]->is_lit(surface.point, &statistics_.light_tests);
 }
 
 // Calls add(light) for each light that reaches the surface, in order, and sets its bit.
 template <class Add>
 void Shader::for_each_lit(const Surface& surface, Sample& sample, const Add& add) {
   for (std::size_t i = 0; i < lights_.size(); ++i) {
-    if (!is_lit(lights_[i], surface)) continue;
+    if (!is_lit(i, surface)) continue;
     sample.lights[i / 8] = static_cast<std::uint8_t>(sample.lights[i / 8] | (1u << (i % 8)));
     add(lights_[i]);
   }
@@ -99,15 +101,12 @@ void Shader::for_each_lit(const Surface& surface, Sample& sample, const Add& add
 
 DVector Shader::white_radiance(const Surface& surface, Sample& sample) {
   DVector radiance = surroundings_.are_dark() ? DVector(0) : surroundings_.at(surface.normal);
-  for_each_lit(surface, sample, [&](const PointLight& light) {
-    const DVector to_light = DVector(light.position()) - surface.position;
-    const double squared = dot(to_light, to_light);
-    if (!(squared > 0)) return;
-    const double cosine = dot(surface.normal, to_light) / std::sqrt(squared);
+  for_each_lit(surface, sample, [&](const simd::LightSource& light) {
+    const auto [to_light, distance, share] = arrival(light, surface.position);
+    if (!(distance > 0)) return;
+    const double cosine = dot(surface.normal, to_light) / distance;
     if (!(cosine > 0)) return;
-    const double strength =
-        light.intensity * cosine * (options_.falloff == Renderer::Falloff::InverseSquare ? 1 / squared : 1);
-    radiance += DVector(light.color.r, light.color.g, light.color.b) * strength;
+    radiance += DVector(light.color[0], light.color[1], light.color[2]) * (light.intensity * cosine * share);
   });
   return radiance;
 }
@@ -124,11 +123,7 @@ DVector Shader::material_radiance(const Surface& surface, const MapPoint& point,
   if (materials_->has_textures(seen.face)) seen.rays = eye_.bundle(ray, point, step);
   const SurfaceLook look = materials_->look(seen, frame_);
   LitSurface lit(seen, look, surface.position, surroundings_);
-  const bool inverse_square = options_.falloff == Renderer::Falloff::InverseSquare;
-  for_each_lit(surface, sample, [&](const PointLight& light) {
-    lit.add(DVector(light.position()), DVector(light.color.r, light.color.g, light.color.b), light.intensity,
-            inverse_square);
-  });
+  for_each_lit(surface, sample, [&](const simd::LightSource& light) { lit.add(light); });
   return lit.radiance();
 }
 

@@ -6,8 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "map/light_lists.h"
 #include "material/material_table.h"
 #include "render/eye.h"
+#include "render/light_sources.h"
 #include "render/surroundings.h"
 
 namespace facemap {
@@ -20,15 +22,17 @@ struct Sample {
 };
 
 /// White mode: albedo 1; radiance = ambient and sky light, and the sum over lights, in index order, of colour *
-/// intensity * cos * falloff. With materials each light is multiplied by what the surface sends on (docs/materials.md).
+/// intensity * cos * share (render/light_sources.h). With materials each light is multiplied by what the surface sends
+/// on (docs/materials.md).
 class Shader {
  public:
   /// Lifts below this share of the face's largest coordinate are noise: normals and the lifted point are rounded to
   /// float32, half a unit of 2^-24 for each coordinate, sqrt(3) for three.
   static constexpr double kLeastLift = 0x1p-23;
 
-  Shader(const Eye& eye, std::span<const PointLight> lights, const Renderer::Options& options,
-         Renderer::Statistics& statistics, const MaterialTable* materials = nullptr);
+  /// `lists`: one a light, none of them null.
+  Shader(const Eye& eye, std::span<const simd::LightSource> lights, const ListsOfLights& lists,
+         const Renderer::Options& options, Renderer::Statistics& statistics, const MaterialTable* materials = nullptr);
 
   /// The sample along the ray through a map point; writes over `sample`, whose memory is used again. `step`: to the
   /// next sample to the right and down, in pixels, which textures are filtered for.
@@ -37,14 +41,15 @@ class Shader {
  private:
   struct Surface;
   Surface surface_at(const Eye::Ray& ray, const Camera::Hit& hit) const;
-  bool is_lit(const PointLight& light, const Surface& surface);
+  bool is_lit(std::size_t light, const Surface& surface);
   template <class Add>
   void for_each_lit(const Surface& surface, Sample& sample, const Add& add);
   DVector white_radiance(const Surface& surface, Sample& sample);
   DVector material_radiance(const Surface& surface, const MapPoint& point, double step, Sample& sample);
 
   const Eye& eye_;
-  std::span<const PointLight> lights_;
+  std::span<const simd::LightSource> lights_;
+  const ListsOfLights& lists_;
   const Renderer::Options& options_;
   Renderer::Statistics& statistics_;
   const MaterialTable* materials_;  // null: all is white

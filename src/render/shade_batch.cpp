@@ -17,8 +17,6 @@ bool has_all(const Corners& normals) { return std::max({normals[0], normals[1], 
 
 bool is_finite(const Vector& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-DVector at(const double (&numbers)[3]) { return {numbers[0], numbers[1], numbers[2]}; }
-
 DVector at(const double (&numbers)[3][simd::kSeenBatch], std::size_t i) {
   return {numbers[0][i], numbers[1][i], numbers[2][i]};
 }
@@ -170,18 +168,30 @@ void ShadeBatch::find_lights_of_moved(const std::vector<simd::LightSource>& ligh
   }
 }
 
-void ShadeBatch::shade(const std::vector<simd::LightSource>& lights, bool inverse_square,
-                       const Surroundings& surroundings, const std::uint8_t* masks, std::size_t stride) {
-  find_surfaces(some_smooth_);
-  if (materials_ == nullptr) {
-    shade_white(lights, inverse_square, surroundings, masks, stride);
-  } else {
-    shade_materials(lights, inverse_square, surroundings, masks, stride);
+void ShadeBatch::clear_unreached(const std::vector<simd::LightSource>& lights, std::uint8_t* masks,
+                                 std::size_t stride) {
+  find_surfaces(false);
+  for (std::size_t byte = 0; byte < stride; ++byte) {
+    const std::size_t first = byte * 8;
+    const int count = static_cast<int>(std::min<std::size_t>(8, lights.size() - first));
+    if (std::none_of(lights.data() + first, lights.data() + first + count, is_windowed)) continue;
+    simd::find_lights_reaching(lights.data() + first, count, rays_.count, points_, lit_);
+    for (std::size_t i = 0; i < rays_.count; ++i) masks[i * stride + byte] &= static_cast<std::uint8_t>(lit_[i]);
   }
 }
 
-void ShadeBatch::shade_white(const std::vector<simd::LightSource>& lights, bool inverse_square,
-                             const Surroundings& surroundings, const std::uint8_t* masks, std::size_t stride) {
+void ShadeBatch::shade(const std::vector<simd::LightSource>& lights, const Surroundings& surroundings,
+                       const std::uint8_t* masks, std::size_t stride) {
+  find_surfaces(some_smooth_);
+  if (materials_ == nullptr) {
+    shade_white(lights, surroundings, masks, stride);
+  } else {
+    shade_materials(lights, surroundings, masks, stride);
+  }
+}
+
+void ShadeBatch::shade_white(const std::vector<simd::LightSource>& lights, const Surroundings& surroundings,
+                             const std::uint8_t* masks, std::size_t stride) {
   for (auto& component : points_.radiance) std::fill_n(component, rays_.count, 0.0);
   for (std::size_t i = 0; i < rays_.count && !surroundings.are_dark(); ++i) {
     store(surroundings.at(at(points_.normal, i)), points_.radiance, i);
@@ -190,7 +200,7 @@ void ShadeBatch::shade_white(const std::vector<simd::LightSource>& lights, bool 
     for (std::size_t i = 0; i < rays_.count; ++i) lit_[i] = masks[i * stride + byte];
     const std::size_t first = byte * 8;
     const int count = static_cast<int>(std::min<std::size_t>(8, lights.size() - first));
-    simd::add_lights(lights.data() + first, count, inverse_square, lit_, rays_.count, points_);
+    simd::add_lights(lights.data() + first, count, lit_, rays_.count, points_);
   }
 }
 
@@ -216,8 +226,8 @@ SeenSurface ShadeBatch::seen_surface(std::size_t i, bool has_neighbours) const {
 }
 
 // Point by point, in the words of Shader::material_radiance.
-void ShadeBatch::shade_materials(const std::vector<simd::LightSource>& lights, bool inverse_square,
-                                 const Surroundings& surroundings, const std::uint8_t* masks, std::size_t stride) {
+void ShadeBatch::shade_materials(const std::vector<simd::LightSource>& lights, const Surroundings& surroundings,
+                                 const std::uint8_t* masks, std::size_t stride) {
   const bool has_neighbours = find_neighbours();
   for (std::size_t i = 0; i < rays_.count; ++i) {
     const SeenSurface seen = seen_surface(i, has_neighbours);
@@ -225,8 +235,7 @@ void ShadeBatch::shade_materials(const std::vector<simd::LightSource>& lights, b
     LitSurface lit(seen, look, at(points_.position, i), surroundings);
     for (std::size_t l = 0; l < lights.size(); ++l) {
       if ((masks[i * stride + l / 8] >> (l % 8) & 1) == 0) continue;
-      const simd::LightSource& light = lights[l];
-      lit.add(at(light.position), at(light.color), light.intensity, inverse_square);
+      lit.add(lights[l]);
     }
     store(lit.radiance(), points_.radiance, i);
   }

@@ -12,6 +12,7 @@
 #include "picture/asked_points.h"
 #include "picture/face_slots.h"
 #include "picture/ray_table.h"
+#include "render/light_sources.h"
 #include "render/lit_surface.h"
 #include "render/neighbour_rays.h"
 #include "simd/shade_points.h"
@@ -55,10 +56,13 @@ class ShadeBatch {
   /// nothing is between, `stride` bytes a point.
   void find_lights_of_moved(const std::vector<simd::LightSource>& lights, std::uint8_t* masks, std::size_t stride);
 
+  /// Clears the bits of lights whose cone or range does not hold the point, in `stride` bytes for each point taken.
+  void clear_unreached(const std::vector<simd::LightSource>& lights, std::uint8_t* masks, std::size_t stride);
+
   /// Radiance of all points taken, from what surrounds them and from the lights of each one's mask, `stride` bytes a
   /// point.
-  void shade(const std::vector<simd::LightSource>& lights, bool inverse_square, const Surroundings& surroundings,
-             const std::uint8_t* masks, std::size_t stride);
+  void shade(const std::vector<simd::LightSource>& lights, const Surroundings& surroundings, const std::uint8_t* masks,
+             std::size_t stride);
   void store_colors(std::span<Color> colors) const;
 
   /// For planes: calls see(surface) for each point taken.
@@ -71,10 +75,10 @@ class ShadeBatch {
   void set_normals();
   void find_surfaces(bool smooth);
   bool is_moved(std::size_t i, const Vector& position) const;
-  void shade_white(const std::vector<simd::LightSource>& lights, bool inverse_square, const Surroundings& surroundings,
+  void shade_white(const std::vector<simd::LightSource>& lights, const Surroundings& surroundings,
                    const std::uint8_t* masks, std::size_t stride);
-  void shade_materials(const std::vector<simd::LightSource>& lights, bool inverse_square,
-                       const Surroundings& surroundings, const std::uint8_t* masks, std::size_t stride);
+  void shade_materials(const std::vector<simd::LightSource>& lights, const Surroundings& surroundings,
+                       const std::uint8_t* masks, std::size_t stride);
   bool find_neighbours();
   SeenSurface seen_surface(std::size_t i, bool has_neighbours) const;
 

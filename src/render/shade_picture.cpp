@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "render/light_sources.h"
 #include "render/shade_batch.h"
 
 namespace facemap {
@@ -12,16 +13,6 @@ namespace {
 constexpr std::size_t kChunk = 16 * simd::kSeenBatch;
 
 std::size_t chunks_of(std::size_t count) { return (count + kChunk - 1) / kChunk; }
-
-std::vector<simd::LightSource> sources_of(const std::vector<Light>& lights) {
-  std::vector<simd::LightSource> sources;
-  for (const Light& light : lights) {
-    sources.push_back({{light.position.x, light.position.y, light.position.z},
-                       {light.color.r, light.color.g, light.color.b},
-                       light.intensity});
-  }
-  return sources;
-}
 
 // Calls task(batch, first point, one past the last, chunk) for all chunks of the seen points.
 template <class Task>
@@ -94,7 +85,7 @@ MovedPoints find_moved_points(const Scene& scene, const SampleGrid& grid, SeenPo
                               const Executor& executor) {
   if (options.normals == Renderer::Normals::Flat || !options.shadow_terminator_fix) return {};
 
-  const std::vector<simd::LightSource> sources = sources_of(lights);
+  const std::vector<simd::LightSource> sources = light_sources(lights, options.falloff);
   const std::vector<std::uint8_t> all = full_mask(lights.size());
   std::vector<FoundPoints> found(chunks_of(seen.points.size()));
   for_each_chunk(scene, grid, seen.points, true, nullptr, executor,
@@ -109,18 +100,29 @@ MovedPoints find_moved_points(const Scene& scene, const SampleGrid& grid, SeenPo
   return join(found, executor, seen);
 }
 
+void clear_unreached(const Scene& scene, const SampleGrid& grid, SeenPoints& seen, const std::vector<Light>& lights,
+                     const Executor& executor) {
+  const std::vector<simd::LightSource> sources = light_sources(lights, Renderer::Falloff::Constant);
+  if (std::none_of(sources.begin(), sources.end(), is_windowed)) return;
+  for_each_chunk(scene, grid, seen.points, false, nullptr, executor,
+                 [&](ShadeBatch& batch, std::size_t first, std::size_t end, std::size_t) {
+                   for (std::size_t count = 0; first < end; first += count) {
+                     count = batch.take(seen.points, first, end);
+                     batch.clear_unreached(sources, seen.masks.data() + first * seen.stride, seen.stride);
+                   }
+                 });
+}
+
 void shade_points(const Scene& scene, const SampleGrid& grid, const SeenPoints& seen, const std::vector<Light>& lights,
                   const Renderer::Options& options, const Executor& executor, std::span<Color> colors,
                   const MaterialTable* materials) {
-  const std::vector<simd::LightSource> sources = sources_of(lights);
-  const bool inverse_square = options.falloff == Renderer::Falloff::InverseSquare;
+  const std::vector<simd::LightSource> sources = light_sources(lights, options.falloff);
   const Surroundings surroundings(options);
   for_each_chunk(scene, grid, seen.points, options.normals == Renderer::Normals::Smooth, materials, executor,
                  [&](ShadeBatch& batch, std::size_t first, std::size_t end, std::size_t) {
                    for (std::size_t count = 0; first < end; first += count) {
                      count = batch.take(seen.points, first, end);
-                     batch.shade(sources, inverse_square, surroundings, seen.masks.data() + first * seen.stride,
-                                 seen.stride);
+                     batch.shade(sources, surroundings, seen.masks.data() + first * seen.stride, seen.stride);
                      batch.store_colors(colors);
                    }
                  });

@@ -22,6 +22,11 @@ MovedPoints find_moved_points(const Scene& scene, const SampleGrid& grid, SeenPo
                               const std::vector<Light>& lights, const Renderer::Options& options,
                               const Executor& executor);
 
+/// Clears the bits of lights whose cone or range does not hold a point: they are not asked about it. Before moved
+/// points are put in place, and after they are found: the position of the point that they stand in for counts.
+void clear_unreached(const Scene& scene, const SampleGrid& grid, SeenPoints& seen, const std::vector<Light>& lights,
+                     const Executor& executor);
+
 /// Writes colors[sample] for the samples of all seen points, as Shader::shade computes it, bit for bit, from masks that
 /// say which lights are lit. Other elements of `colors` (one a sample of the grid) stay as they are. Without materials
 /// (null) all is white.

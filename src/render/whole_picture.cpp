@@ -17,13 +17,6 @@
 namespace facemap {
 namespace {
 
-std::vector<Vector> positions_of(const std::vector<Light>& lights) {
-  std::vector<Vector> positions;
-  positions.reserve(lights.size());
-  for (const Light& light : lights) positions.push_back(light.position);
-  return positions;
-}
-
 // Bytes that a sample may take while its band is worked on: the camera's raster, its point, and its place about a light
 // in each thread. There it is listed (16), has a texel and a rank (8), a record (16) and its number (4), and the raster
 // has up to one texel (4) and that one's spots (4) for it. For sizing bands by Options::map_memory; no bound.
@@ -101,20 +94,25 @@ struct WholePicture::Seen {
 
 WholePicture::WholePicture(const Scene& scene, const View& view, const std::vector<Light>& lights,
                            const Renderer::Options& options, const Executor& executor, TransposedState& state,
-                           const std::vector<PointLight>* lists, bool keeps_bounds, const MaterialTable* materials,
-                           Renderer::Statistics& statistics, Report report)
+                           const ListsOfLights& lists, bool asks_lists, bool keeps_bounds,
+                           const MaterialTable* materials, Renderer::Statistics& statistics, Report report)
     : scene_(scene),
       view_(view),
       lights_(lights),
       options_(options),
       executor_(executor),
       state_(state),
-      lists_(lists),
+      places_(LightPlaces::of(lights)),
+      lists_(lights.size()),
+      transposes_(!asks_lists && places_.any_has_a_place()),
       keeps_bounds_(keeps_bounds),
       materials_(materials),
       statistics_(statistics),
       report_(std::move(report)) {
   state_.scratch.resize(static_cast<std::size_t>(executor.threads()));
+  for (std::size_t l = 0; l < lists_.size(); ++l) {
+    if (asks_lists || places_.is_parallel[l] != 0) lists_[l] = lists[l].get();
+  }
 }
 
 // Whole pixels stay together.
@@ -162,7 +160,7 @@ WholePicture::Seen WholePicture::see(const SampleGrid& grid) {
   report(0, "camera map");
   NearestFaces nearest = find_nearest_faces(scene_, grid, executor_, &statistics_.camera_tests);
   statistics_.camera_queries += grid.count();
-  SeenPoints seen = find_seen_points(scene_, grid, nearest, positions_of(lights_), executor_);
+  SeenPoints seen = find_seen_points(scene_, grid, nearest, places_, executor_);
   statistics_.camera_map_ms += camera_time.milliseconds();
   ask_lights(grid, seen);
   return {grid, std::move(nearest.faces), std::move(seen)};
@@ -194,8 +192,8 @@ void WholePicture::prepare_lights(const SampleGrid& grid, const MovedPoints& mov
     seen.loose = std::move(loose);
   }
   if (keeps_bounds_ && !state_.bounds.are_made() && !lights_.empty()) {
-    state_.bounds.make(scene_, positions_of(lights_), state_.closed.get(),
-                       state_.closed->outside(scene_, grid.frame.position()), executor_);
+    state_.bounds.make(scene_, places_, state_.closed.get(), state_.closed->outside(scene_, grid.frame.position()),
+                       executor_);
   }
 }
 
@@ -203,21 +201,22 @@ void WholePicture::ask_lights(const SampleGrid& grid, SeenPoints& seen) {
   report(0.2, "light maps");
   const Stopwatch moved_time;
   const MovedPoints moved = find_moved_points(scene_, grid, seen, lights_, options_, executor_);
+  clear_unreached(scene_, grid, seen, lights_, executor_);
   put_in_place(moved, executor_, seen.points);
   statistics_.light_queries += count_bits(seen.masks);
   statistics_.shade_ms += moved_time.milliseconds();
   const Stopwatch closed_time;
-  if (lists_ == nullptr) prepare_lights(grid, moved, seen);
+  if (transposes_) prepare_lights(grid, moved, seen);
   statistics_.light_maps_ms += closed_time.milliseconds();
 
   report(0.3, "shade");
   const Stopwatch light_time;
-  if (lists_ != nullptr) {
-    clear_blocked_by_lists(*lists_, scene_, grid, executor_, moved, seen, statistics_.light_tests);
-  } else {
-    const std::vector<Vector> lights = positions_of(lights_);
+  if (std::any_of(lists_.begin(), lists_.end(), [](const LightLists* lists) { return lists != nullptr; })) {
+    clear_blocked_by_lists(lists_, scene_, grid, executor_, moved, seen, statistics_.light_tests);
+  }
+  if (transposes_) {
     const LightWork work{
-        scene_, lights, state_.closed.get(), &state_.bounds, executor_, state_.scratch, [this](double share) {
+        scene_, places_, state_.closed.get(), &state_.bounds, executor_, state_.scratch, [this](double share) {
           report(0.3 + 0.5 * share, "shade");
         }};
     clear_blocked(work, grid, moved, seen, statistics_.light_tests);
@@ -275,7 +274,7 @@ Image WholePicture::paint() {
     Seen seen = see(grid);
     const Stopwatch shade_time;
     report(0.8, "shade");
-    if (lists_ != nullptr) colors_.assign(grid.count(), options_.background);
+    if (!transposes_) colors_.assign(grid.count(), options_.background);
     shade_points(scene_, grid, seen.points, lights_, options_, executor_, colors_, materials_);
     if (!centres_are_sampled) colors_ = mean_of_samples(grid, colors_, executor_);
     put_band(std::move(colors_),

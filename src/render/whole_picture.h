@@ -28,10 +28,10 @@ class WholePicture {
   /// Called now and then with the fraction done and the phase's name; it may throw.
   using Report = std::function<void(double, const char*)>;
 
-  /// `lists`: one map a light to ask, or null to take the transposed way for shadows too; `keeps_bounds`: then bounds
-  /// of the lights are made, if they are not.
+  /// `lists`: of directional lights, and of all if `asks_lists`; else the transposed way is taken for those with a
+  /// place, and if `keeps_bounds` their bounds are made, if they are not.
   WholePicture(const Scene& scene, const View& view, const std::vector<Light>& lights, const Renderer::Options& options,
-               const Executor& executor, TransposedState& state, const std::vector<PointLight>* lists,
+               const Executor& executor, TransposedState& state, const ListsOfLights& lists, bool asks_lists,
                bool keeps_bounds, const MaterialTable* materials, Renderer::Statistics& statistics, Report report);
 
   /// As Renderer::render.
@@ -58,7 +58,9 @@ class WholePicture {
   const Renderer::Options& options_;
   const Executor& executor_;
   TransposedState& state_;
-  const std::vector<PointLight>* lists_;
+  const LightPlaces places_;
+  std::vector<const LightLists*> lists_;  // one a light; null: it is not asked
+  bool transposes_;                       // there are lights that are not
   bool keeps_bounds_;
   const MaterialTable* materials_;  // null: all is white
   Renderer::Statistics& statistics_;

@@ -66,8 +66,9 @@ void set_up_planes(PlaneBatch& planes, const float K[3]) {
   for (std::size_t i = 0; i < planes.count; i += hn::Lanes(D())) set_up_lanes(planes, point(K), i);
 }
 
-void find_facing(const PlaneBatch& planes, const float (*lights)[3], int light_count, std::int32_t* facing,
-                 std::int32_t* unsure) {
+// Parallel light along d is on the side where n . d has the sign that n . (a - L) has for a light at L.
+void find_facing(const PlaneBatch& planes, const float (*lights)[3], int light_count, unsigned parallel,
+                 std::int32_t* facing, std::int32_t* unsure) {
   const V zero = hn::Zero(D());
   for (std::size_t i = 0; i < planes.count; i += hn::Lanes(D())) {
     const Three a = promoted(planes.corners, i), n = load(planes.normal, i), spread = load(planes.spread, i);
@@ -76,7 +77,8 @@ void find_facing(const PlaneBatch& planes, const float (*lights)[3], int light_c
     const V camera_sign = hn::CopySign(constant(1), camera);
     V facing_bits = zero, unsure_bits = zero;
     for (int l = 0; l < light_count; ++l) {
-      const Three from_light = minus(a, point(lights[l]));
+      const bool is_parallel = (parallel >> l & 1) != 0;
+      const Three from_light = is_parallel ? point(lights[l]) : minus(a, point(lights[l]));
       const V same = hn::Mul(camera_sign, dot(n, from_light));
       const V error = hn::Mul(constant(kOffsetError), dot(spread, magnitude(from_light)));
       // Where the bound is 0, all terms are, and so is the true value.
@@ -145,9 +147,9 @@ void load_corners(const std::uint32_t* triangles, const float* positions, const 
 
 void set_up_planes(PlaneBatch& planes, const float K[3]) { FACEMAP_DISPATCH(set_up_planes)(planes, K); }
 
-void find_facing(const PlaneBatch& planes, const float (*lights)[3], int light_count, std::int32_t* facing,
-                 std::int32_t* unsure) {
-  FACEMAP_DISPATCH(find_facing)(planes, lights, light_count, facing, unsure);
+void find_facing(const PlaneBatch& planes, const float (*lights)[3], int light_count, unsigned parallel,
+                 std::int32_t* facing, std::int32_t* unsure) {
+  FACEMAP_DISPATCH(find_facing)(planes, lights, light_count, parallel, facing, unsure);
 }
 
 bool meet_planes(const PlaneBatch& planes, const double base[3], double allowed, RayBatch& rays,

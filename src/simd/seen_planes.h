@@ -33,10 +33,11 @@ void load_corners(const std::uint32_t* triangles, const float* positions, const 
 /// Fills all but corners.
 void set_up_planes(PlaneBatch& planes, const float K[3]);
 
-/// For lights[0..light_count), at most 8: bit l of facing[face] is set if K and light l are surely on the same side
-/// of the plane, strictly; bit l of unsure[face] if doubles can't tell.
-void find_facing(const PlaneBatch& planes, const float (*lights)[3], int light_count, std::int32_t* facing,
-                 std::int32_t* unsure);
+/// For lights[0..light_count), at most 8, positions, or directions of parallel light where bit l of `parallel` is set:
+/// bit l of facing[face] is set if K and light l are surely on the same side of the plane, strictly; bit l of
+/// unsure[face] if doubles can't tell.
+void find_facing(const PlaneBatch& planes, const float (*lights)[3], int light_count, unsigned parallel,
+                 std::int32_t* facing, std::int32_t* unsure);
 
 /// Rays of a batch, and the faces that they see.
 struct RayBatch {

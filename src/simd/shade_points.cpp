@@ -145,6 +145,31 @@ void find_smooth_normals(const ShadedFaces& faces, const RayBatch& rays, ShadedP
   }
 }
 
+namespace {
+
+HWY_INLINE V between_0_and_1(V x) { return hn::Min(not_below_zero(x), constant(1)); }
+
+// What cone and range leave (render/light_sources.cpp).
+HWY_INLINE V window(const LightSource& light, const Three& to_light, V squared, V distance) {
+  V share = constant(1);
+  if (light.is_spot) {
+    const V cosine = hn::Div(hn::Neg(dot(point(light.axis), to_light)), distance);
+    const V edge = between_0_and_1(hn::Add(hn::Mul(cosine, constant(light.cone_scale)), constant(light.cone_offset)));
+    share = hn::Mul(edge, edge);
+  }
+  if (light.has_range) {
+    const V ratio = hn::Div(squared, constant(light.squared_range));
+    share = hn::Mul(share, between_0_and_1(hn::Sub(constant(1), hn::Mul(ratio, ratio))));
+  }
+  return share;
+}
+
+HWY_INLINE Three way_to(const LightSource& light, const Three& position) {
+  return light.is_parallel ? point(light.towards) : minus(point(light.position), position);
+}
+
+}  // namespace
+
 // Where the numerator of add_lights' cosine, in the same order, is not above 0 neither is the cosine.
 void find_lights_before(const LightSource* lights, int light_count, std::size_t count, const ShadedPoints& points,
                         std::int64_t* bits) {
@@ -152,7 +177,7 @@ void find_lights_before(const LightSource* lights, int light_count, std::size_t 
     const Three position = load(points.position, i), normal = load(points.normal, i);
     auto found = hn::Zero(Places());
     for (int l = 0; l < light_count; ++l) {
-      const Three to_light = minus(point(lights[l].position), position);
+      const Three to_light = way_to(lights[l], position);
       const auto before = hn::RebindMask(Places(), hn::Gt(dot(normal, to_light), hn::Zero(D())));
       found = hn::Or(found, hn::IfThenElseZero(before, hn::Set(Places(), std::int64_t{1} << l)));
     }
@@ -160,8 +185,29 @@ void find_lights_before(const LightSource* lights, int light_count, std::size_t 
   }
 }
 
-void add_lights(const LightSource* lights, int light_count, bool inverse_square, const std::int64_t* lit,
-                std::size_t count, ShadedPoints& points) {
+void find_lights_reaching(const LightSource* lights, int light_count, std::size_t count, const ShadedPoints& points,
+                          std::int64_t* bits) {
+  for (std::size_t i = 0; i < count; i += hn::Lanes(D())) {
+    const Three position = load(points.position, i);
+    auto found = hn::Zero(Places());
+    for (int l = 0; l < light_count; ++l) {
+      const auto bit = hn::Set(Places(), std::int64_t{1} << l);
+      if (!lights[l].is_spot && !lights[l].has_range) {
+        found = hn::Or(found, bit);
+        continue;
+      }
+      const Three to_light = way_to(lights[l], position);
+      const V squared = dot(to_light, to_light);
+      const V share = window(lights[l], to_light, squared, hn::Sqrt(squared));
+      const auto is_within = hn::RebindMask(Places(), hn::Gt(share, hn::Zero(D())));
+      found = hn::Or(found, hn::IfThenElseZero(is_within, bit));
+    }
+    hn::StoreU(found, Places(), bits + i);
+  }
+}
+
+void add_lights(const LightSource* lights, int light_count, const std::int64_t* lit, std::size_t count,
+                ShadedPoints& points) {
   const V zero = hn::Zero(D());
   for (std::size_t i = 0; i < count; i += hn::Lanes(D())) {
     const auto bits = hn::LoadU(Places(), lit + i);
@@ -171,11 +217,13 @@ void add_lights(const LightSource* lights, int light_count, bool inverse_square,
       const Mask is_lit = hn::RebindMask(D(), hn::TestBit(bits, hn::Set(Places(), std::int64_t{1} << l)));
       if (hn::AllFalse(D(), is_lit)) continue;
       const LightSource& light = lights[l];
-      const Three to_light = minus(point(light.position), position);
-      const V squared = dot(to_light, to_light);
-      const V cosine = hn::Div(dot(normal, to_light), hn::Sqrt(squared));
-      V strength = hn::Mul(constant(light.intensity), cosine);
-      if (inverse_square) strength = hn::Mul(strength, hn::Div(constant(1), squared));
+      const Three to_light = way_to(light, position);
+      const V squared = light.is_parallel ? constant(1) : dot(to_light, to_light);
+      const V distance = hn::Sqrt(squared);
+      const V cosine = hn::Div(dot(normal, to_light), distance);
+      V share = light.inverse_square ? hn::Div(constant(1), squared) : constant(1);
+      if (light.is_spot || light.has_range) share = hn::Mul(share, window(light, to_light, squared, distance));
+      const V strength = hn::Mul(hn::Mul(constant(light.intensity), cosine), share);
       const Mask shines = hn::And(is_lit, hn::And(hn::Gt(squared, zero), hn::Gt(cosine, zero)));
       const Three sum = plus(radiance, times(point(light.color), strength));
       radiance = chosen(shines, sum, radiance);
@@ -209,9 +257,14 @@ void find_lights_before(const LightSource* lights, int light_count, std::size_t 
   FACEMAP_DISPATCH(find_lights_before)(lights, light_count, count, points, bits);
 }
 
-void add_lights(const LightSource* lights, int light_count, bool inverse_square, const std::int64_t* lit,
-                std::size_t count, ShadedPoints& points) {
-  FACEMAP_DISPATCH(add_lights)(lights, light_count, inverse_square, lit, count, points);
+void find_lights_reaching(const LightSource* lights, int light_count, std::size_t count, const ShadedPoints& points,
+                          std::int64_t* bits) {
+  FACEMAP_DISPATCH(find_lights_reaching)(lights, light_count, count, points, bits);
+}
+
+void add_lights(const LightSource* lights, int light_count, const std::int64_t* lit, std::size_t count,
+                ShadedPoints& points) {
+  FACEMAP_DISPATCH(add_lights)(lights, light_count, lit, count, points);
 }
 
 }  // namespace facemap::simd

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "simd/light_source.h"
 #include "simd/shade_faces.h"
 
 /// Shader::shade (render/shade.h) for a batch of points: the same operations in the same order, so the same bits.
@@ -34,19 +35,17 @@ bool find_lifts(const PlaneBatch& planes, const ShadedFaces& faces, const RayBat
 /// After find_surfaces: fills normal with smooth ones, as find_surfaces does if asked for them.
 void find_smooth_normals(const ShadedFaces& faces, const RayBatch& rays, ShadedPoints& points);
 
-struct LightSource {
-  double position[3];
-  double color[3];
-  double intensity;
-};
-
 /// Bit l of bits[i]: lights[l], of at most 8, is in front of the point's shading normal, so that add_lights may add
 /// something.
 void find_lights_before(const LightSource* lights, int light_count, std::size_t count, const ShadedPoints& points,
                         std::int64_t* bits);
 
+/// Bit l of bits[i]: the point is within the cone and the range of lights[l], of at most 8.
+void find_lights_reaching(const LightSource* lights, int light_count, std::size_t count, const ShadedPoints& points,
+                          std::int64_t* bits);
+
 /// Adds to radiance what lights[0..light_count), at most 8, send to the points: light l where bit l of lit[i] is set.
-void add_lights(const LightSource* lights, int light_count, bool inverse_square, const std::int64_t* lit,
-                std::size_t count, ShadedPoints& points);
+void add_lights(const LightSource* lights, int light_count, const std::int64_t* lit, std::size_t count,
+                ShadedPoints& points);
 
 }  // namespace facemap::simd

@@ -9,11 +9,15 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "material/surface_coordinates.h"
+#include "render/light_sources.h"
 #include "simd/target.h"
 #include "support/oracle.h"
+#include "support/parallel_oracle.h"
 #include "support/queries.h"
 #include "support/random.h"
 #include "support/scenes.h"
@@ -31,7 +35,42 @@ std::uint64_t number_from_environment(const char* name, std::uint64_t otherwise)
 }
 
 struct Tally {
-  std::uint64_t pictures = 0, rays = 0, hits = 0, shadow_questions = 0, differences = 0;
+  std::uint64_t pictures = 0, rays = 0, hits = 0, shadow_questions = 0, unreached = 0, differences = 0;
+};
+
+std::string text(const Light& light) {
+  return " light " + std::to_string(static_cast<int>(light.kind)) + " " + test_queries::text(light.position) + " " +
+         test_queries::text(light.direction) + " " + std::to_string(light.inner_angle) + " " +
+         std::to_string(light.outer_angle) + " " + std::to_string(light.range);
+}
+
+// What a light's bit must say of a point: nothing stands between, by the referee, and cone and range hold it, which is
+// one sequence of doubles by definition.
+class LightTruth {
+ public:
+  LightTruth(const oracle::Oracle& oracle, const Light& light)
+      : source_(light_sources({light}, Renderer::Falloff::Constant)[0]) {
+    if (light.kind == Light::Kind::Directional) {
+      along_.emplace(oracle, light.direction);
+    } else {
+      from_.emplace(oracle.from(light.position));
+    }
+  }
+
+  bool is_out_of_reach(const Mesh& mesh, const SurfacePoint& point) const {
+    const FaceCorners face = corners_of(mesh, static_cast<std::size_t>(point.face));
+    const DVector weights = barycentric(face, point_on_plane(face, DVector(point.origin), DVector(point.direction)));
+    return !reaches(source_, weighted(face.v, weights));
+  }
+
+  bool is_lit(const Mesh& mesh, const SurfacePoint& point) const {
+    return !is_out_of_reach(mesh, point) && (along_ ? along_->is_lit(point) : from_->is_lit(point));
+  }
+
+ private:
+  simd::LightSource source_;
+  std::optional<oracle::View> from_;
+  std::optional<oracle::ParallelView> along_;
 };
 
 class Session {
@@ -43,9 +82,10 @@ class Session {
   const Tally& ask(std::uint64_t rays) {
     const auto is_open = [&] { return tally_.rays < rays || (4 * tally_.hits < rays && tally_.rays < 2 * rays); };
     while (is_open() && tally_.differences < 20) ask_picture();
-    std::printf("%llu pictures, %llu rays, %llu hits, %llu shadow questions, differences: %llu\n",
+    std::printf("%llu pictures, %llu rays, %llu hits, %llu shadow questions, %llu out of reach, differences: %llu\n",
                 (unsigned long long)tally_.pictures, (unsigned long long)tally_.rays, (unsigned long long)tally_.hits,
-                (unsigned long long)tally_.shadow_questions, (unsigned long long)tally_.differences);
+                (unsigned long long)tally_.shadow_questions, (unsigned long long)tally_.unreached,
+                (unsigned long long)tally_.differences);
     return tally_;
   }
 
@@ -83,7 +123,10 @@ class Session {
     const Scene scene(test.mesh);
     const View view = make_view(test);
     std::vector<Light> lights(static_cast<std::size_t>(random_.between(0, 10)));
-    for (Light& light : lights) light.position = test_scenes::make_origin(test, random_);
+    for (Light& light : lights) {
+      light.position = test_scenes::make_origin(test, random_);
+      if (random_.chance(0.5)) test_scenes::make_any_kind(test, random_, light);
+    }
     Renderer::Options options;
     options.width = random_.between(1, 40);
     options.height = random_.between(1, 40);
@@ -117,8 +160,8 @@ class Session {
                const Renderer::Options& options, const Image& image) {
     const oracle::Oracle oracle(scene.mesh());
     const oracle::View camera_truth = oracle.from(view.position);
-    std::vector<oracle::View> light_truths;
-    for (const Light& light : lights) light_truths.push_back(oracle.from(light.position));
+    std::vector<LightTruth> light_truths;
+    for (const Light& light : lights) light_truths.emplace_back(oracle, light);
     const SpaceVector frame = SpaceVector::looking_at(view.position, view.look_at, view.up);
     const Projection projection(view.projection, view.field_angle, options.width, options.height);
     ASSERT_EQ(image.width, options.width * options.samples);
@@ -138,11 +181,12 @@ class Session {
           if (truth.face != kNoFace) {
             const Mesh& mesh = scene.mesh();
             is_lit = light_truths[l].is_lit(
-                {view.position,
-                 d,
-                 {mesh.vertex(truth.face, 0), mesh.vertex(truth.face, 1), mesh.vertex(truth.face, 2)},
-                 truth.face,
-                 truth.side});
+                mesh, {view.position,
+                       d,
+                       {mesh.vertex(truth.face, 0), mesh.vertex(truth.face, 1), mesh.vertex(truth.face, 2)},
+                       truth.face,
+                       truth.side});
+            tally_.unreached += light_truths[l].is_out_of_reach(mesh, {view.position, d, {}, truth.face, 0});
             ++tally_.shadow_questions;
           }
           expected += is_lit ? '1' : '0';
@@ -156,7 +200,7 @@ class Session {
                             (view.projection == ProjectionKind::Plane ? " plane " : " surface ") +
                             std::to_string(view.field_angle) + " size " + std::to_string(options.width) + "x" +
                             std::to_string(options.height) + "x" + std::to_string(n);
-        for (const Light& light : lights) where += " light " + test_queries::text(light.position);
+        for (const Light& light : lights) where += text(light);
         ADD_FAILURE() << test.name << " pixel " << x << " " << y << ": " << actual << ", the oracle " << expected
                       << " (tied " << truth.tied << ", inside " << truth.strictly_inside << "), target "
                       << simd::name_of(simd::active_target()) << ", " << options.threads << " threads, strategy "
@@ -176,6 +220,7 @@ TEST(WholePictures, EqualTheOracle) {
   const Tally& tally = session.ask(rays);
   EXPECT_EQ(tally.differences, 0u);
   EXPECT_GE(4 * tally.hits, rays);
+  EXPECT_GT(100 * tally.unreached, tally.shadow_questions);
 }
 
 // An L-shaped prism, closed, of eight caps and twelve sides; `first_side` comes first among the sides.

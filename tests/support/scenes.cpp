@@ -351,4 +351,21 @@ Vector make_origin(const TestScene& scene, Random& random) {
   }
 }
 
+void make_any_kind(const TestScene& scene, Random& random, facemap::Light& light) {
+  using facemap::Light;
+  const Mesh& mesh = scene.mesh;
+  const Vector aim = mesh.vertex(static_cast<std::size_t>(random.below(static_cast<int>(mesh.face_count()))), 0);
+  Vector towards = (random.chance(0.5) ? aim : scene.centre) - light.position;
+  const float size = std::fabs(towards.x) + std::fabs(towards.y) + std::fabs(towards.z);
+  if (!(size > 0 && std::isfinite(size)) || random.chance(0.2)) towards = Vector(random.direction());
+  light.direction = towards;
+  light.kind = static_cast<Light::Kind>(random.below(3));
+  light.outer_angle = random.chance(0.1) ? random.between(0.0, 3.14) : random.between(0.0, 1.0);
+  light.inner_angle = light.outer_angle * (random.chance(0.3) ? 1 : random.unit());
+  light.has_falloff = random.chance(0.3);
+  const double distance =
+      std::sqrt(double{towards.x} * towards.x + double{towards.y} * towards.y + double{towards.z} * towards.z);
+  if (random.chance(0.3)) light.range = random.between(0.5, 2.0) * distance;
+}
+
 }  // namespace test_scenes

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <facemap/light.h>
 #include <facemap/mesh.h>
 
 #include <string>
@@ -39,6 +40,9 @@ TestScene make_scene(Kind kind, int face_count, Random& random);
 
 /// Random kind, size and placement: as made, times 2^-40 or 2^40, or 1e6 from the world's origin.
 TestScene make_any_scene(Random& random, int largest_face_count);
+
+/// Makes a light that has a place a spot, a directional light or one with a range or falloff.
+void make_any_kind(const TestScene& scene, Random& random, facemap::Light& light);
 
 /// A copy of the mesh with each coordinate times `factor`, a power of two.
 Mesh scaled(const Mesh& mesh, float factor);

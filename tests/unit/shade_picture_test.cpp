@@ -1,7 +1,6 @@
 #include "render/shade_picture.h"
 
 #include <facemap/camera.h>
-#include <facemap/point_light.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,9 +8,11 @@
 #include <memory>
 
 #include "map/face_planes.h"
+#include "map/light_lists.h"
 #include "material/material_table.h"
 #include "math/dvector.h"
 #include "picture/moved_points.h"
+#include "render/light_sources.h"
 #include "render/shade.h"
 #include "simd/target.h"
 #include "support/scenes.h"
@@ -140,6 +141,7 @@ Setting make_setting(Random& random, bool has_materials) {
     light.position = make_origin(made, random);
     light.color = {static_cast<float>(random.unit()), static_cast<float>(random.unit()), 1};
     light.intensity = static_cast<float>(random.between(0.0, 3.0));
+    if (random.chance(0.5)) test_scenes::make_any_kind(made, random, light);
   }
   setting.options.normals = random.chance(0.7) ? Renderer::Normals::Smooth : Renderer::Normals::Flat;
   setting.options.shadow_terminator_fix = random.chance(0.8);
@@ -157,15 +159,13 @@ Setting make_setting(Random& random, bool has_materials) {
 struct Expected {
   NearestFaces nearest;
   std::vector<Sample> samples;
-  std::vector<PointLight> lights;
+  ListsOfLights lights;
 };
 
 Expected shade_singly(const Setting& setting, const MaterialTable* materials = nullptr) {
   Expected expected;
   for (const Light& light : setting.lights) {
-    expected.lights.emplace_back(setting.scene, light.position);
-    expected.lights.back().color = light.color;
-    expected.lights.back().intensity = light.intensity;
+    expected.lights.push_back(std::make_unique<LightLists>(setting.scene, light, Builder::Cover));
   }
   Camera::Options options;
   options.projection = setting.grid.lens.projection()->kind();
@@ -175,7 +175,8 @@ Expected shade_singly(const Setting& setting, const MaterialTable* materials = n
   const Camera camera(setting.scene, setting.grid.frame, options);
   Renderer::Statistics statistics;
   const CentralEye eye(camera);
-  Shader shader(eye, expected.lights, setting.options, statistics, materials);
+  const std::vector<simd::LightSource> sources = light_sources(setting.lights, setting.options.falloff);
+  Shader shader(eye, sources, expected.lights, setting.options, statistics, materials);
   for (int row = 0; row < setting.grid.rows(); ++row) {
     for (int column = 0; column < setting.grid.columns(); ++column) {
       Sample sample;
@@ -188,8 +189,7 @@ Expected shade_singly(const Setting& setting, const MaterialTable* materials = n
 }
 
 // Asks the lights' maps about the points whose bits are set, moved ones by their own positions.
-void ask_lights(const Setting& setting, const std::vector<PointLight>& lights, const MovedPoints& moved,
-                SeenPoints& seen) {
+void ask_lights(const Setting& setting, const ListsOfLights& lights, const MovedPoints& moved, SeenPoints& seen) {
   const auto columns = static_cast<std::uint32_t>(setting.grid.columns());
   std::size_t k = 0;  // of the next moved point
   for (std::size_t i = 0; i < seen.points.size(); ++i) {
@@ -202,7 +202,8 @@ void ask_lights(const Setting& setting, const std::vector<PointLight>& lights, c
     for (std::size_t l = 0; l < lights.size(); ++l) {
       std::uint8_t& mask = seen.masks[i * seen.stride + l / 8];
       if ((mask >> (l % 8) & 1) == 0) continue;
-      const bool lit = is_moved ? lights[l].get_lighten_up(moved.positions[k]) : !lights[l].is_blocked(point);
+      const bool lit =
+          is_moved ? lights[l]->is_lit(moved.positions[k], nullptr) : !lights[l]->is_blocked(point, nullptr);
       if (!lit) mask &= static_cast<std::uint8_t>(~(1u << (l % 8)));
     }
     k += is_moved;
@@ -214,12 +215,12 @@ bool same_bits(const Color& a, const Color& b) { return std::memcmp(&a, &b, size
 
 void expect_same(const Setting& setting, const Expected& expected, const Executor& executor, std::size_t* moved_count,
                  const MaterialTable* materials = nullptr) {
-  std::vector<Vector> positions;
-  for (const Light& light : setting.lights) positions.push_back(light.position);
-  SeenPoints seen = find_seen_points(setting.scene, setting.grid, expected.nearest, positions, executor);
+  SeenPoints seen =
+      find_seen_points(setting.scene, setting.grid, expected.nearest, LightPlaces::of(setting.lights), executor);
   const MovedPoints moved =
       find_moved_points(setting.scene, setting.grid, seen, setting.lights, setting.options, executor);
   *moved_count += moved.positions.size();
+  clear_unreached(setting.scene, setting.grid, seen, setting.lights, executor);
   ask_lights(setting, expected.lights, moved, seen);
   std::vector<Color> colors(setting.grid.count(), setting.options.background);
   shade_points(setting.scene, setting.grid, seen, setting.lights, setting.options, executor, colors, materials);
