@@ -12,6 +12,7 @@ namespace {
 
 struct InfoArguments {
   std::filesystem::path model;
+  bool names = false;
 };
 
 template <typename Value>
@@ -34,6 +35,22 @@ void print_oddities(const Scene& scene) {
   for (const std::string& warning : report.warnings) row("warning", warning);
 }
 
+/// A name on one line: control bytes as '?'.
+std::string printable(std::string name) {
+  for (char& c : name) c = static_cast<unsigned char>(c) < ' ' || c == 127 ? '?' : c;
+  return name;
+}
+
+/// With the numbers that the planes `object` and `material` have.
+void print_names(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.objects().size(); ++i) {
+    row(("object " + std::to_string(i)).c_str(), printable(scene.objects()[i]));
+  }
+  for (std::size_t i = 0; i < scene.materials().size(); ++i) {
+    row(("material " + std::to_string(i)).c_str(), printable(scene.materials()[i].name));
+  }
+}
+
 void print_info(const InfoArguments& arguments) {
   const Scene scene = load_model(arguments.model, true);
   const OBJ::Report& report = scene.report();
@@ -52,6 +69,7 @@ void print_info(const InfoArguments& arguments) {
   row("centre", text_of(Vector(scene.centre())));
   row("radius", text_of(static_cast<float>(scene.bounding_radius())));
   print_oddities(scene);
+  if (arguments.names) print_names(scene);
   std::cout << std::flush;
 }
 
@@ -66,8 +84,11 @@ Command info_command() {
       "Counts, bounds, faces that are left out of pictures and why, statements that were read over, warnings.\n"
       "Faces left out keep their numbers: nothing is renumbered.\n";
   command.options = {{"MODEL", "", "", "the model: an OBJ, glTF, PLY or STL file",
-                      into(arguments->model, [](const std::string& text) { return std::filesystem::path(text); })}};
-  command.examples = {{"facemap info model.obj", "what is in this file?"}};
+                      into(arguments->model, [](const std::string& text) { return std::filesystem::path(text); })},
+                     {"--names", "", "", "lists objects and materials with their numbers in planes of ids",
+                      [arguments](const std::string&) { arguments->names = true; }}};
+  command.examples = {{"facemap info model.obj", "what is in this file?"},
+                      {"facemap info model.glb --names", "which object is number 3 of --aov object?"}};
   command.run = [arguments] {
     print_info(*arguments);
     return kDone;

@@ -92,6 +92,16 @@ TEST_F(Program, EveryPlaneIsWritten) {
   }
 }
 
+TEST_F(Program, InfoNamesObjectsAndMaterials) {
+  write_file("two.obj",
+             "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\no left\nusemtl red\nf 1 2 3\no right\nf 2 3 4\n");
+  write_file("two.mtl", "newmtl blue\nKd 0 0 1\nnewmtl red\nKd 1 0 0\n");
+  const std::string plain = run("info two.obj").out, named = run("info two.obj --names").out;
+  EXPECT_EQ(named, plain +
+                       "  object 0              left\n  object 1              right\n"
+                       "  material 0            blue\n  material 1            red\n");
+}
+
 TEST_F(Program, NamesHoldTheModelAndTheNumber) {
   ASSERT_EQ(run(render("-o {model}_{n:03}.png --aov z={model}-{n}.npy --turntable 2")).exit_code, 0);
   EXPECT_EQ(files(), "cube-0.npy cube-1.npy cube_000.png cube_001.png ");
