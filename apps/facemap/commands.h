@@ -10,6 +10,7 @@ Command render_command();
 Command info_command();
 Command map_command();
 Command compare_command();
+Command sheet_command();
 Command scene_command();
 
 /// All of them, in the order of the help.

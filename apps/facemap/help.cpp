@@ -44,7 +44,7 @@ std::string option_row(const Option& option) {
 std::string usage_line(const Command& command) {
   std::string line = "facemap " + command.name;
   for (const Option& option : command.options) {
-    if (option.is_argument()) line += " " + option.flags;
+    if (option.is_argument()) line += " " + option.flags + (option.repeats ? "..." : "");
   }
   const bool writes = std::any_of(command.options.begin(), command.options.end(),
                                   [](const Option& option) { return option.flags.starts_with("-o"); });

@@ -13,7 +13,7 @@
 namespace facemap::program {
 
 std::vector<Command> all_commands() {
-  return {render_command(), info_command(), map_command(), compare_command(), scene_command()};
+  return {render_command(), info_command(), map_command(), compare_command(), sheet_command(), scene_command()};
 }
 
 namespace {

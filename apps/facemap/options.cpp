@@ -21,7 +21,9 @@ void add_to_parser(const Option& option, CLI::App& parser, Words& words) {
   } else {
     // One word each time the flag stands there: a list of words would swallow the model's name.
     CLI::Option* const added = parser.add_option(option.flags, words[&option])->allow_extra_args(false);
-    if (option.is_argument()) added->expected(1);
+    if (option.is_argument() && !option.repeats) added->expected(1);
+    if (option.is_argument() && option.repeats)
+      added->allow_extra_args()->expected(1, CLI::detail::expected_max_vector_size);
   }
 }
 

@@ -1,0 +1,158 @@
+#include <facemap/facemap.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <iostream>
+#include <memory>
+#include <new>
+
+#include "commands.h"
+#include "contact_sheet.h"
+#include "exit_codes.h"
+#include "interrupt.h"
+#include "output.h"
+#include "progress_line.h"
+#include "text_values.h"
+#include "usage_error.h"
+
+namespace facemap::program {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SheetArguments {
+  std::vector<fs::path> paths;
+  fs::path output;
+  Size size{256, 256};
+  int columns = 0;  ///< 0: as many as make the sheet about as wide as high
+  int threads = 0;
+  bool quiet = false;
+};
+
+bool is_model(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const char* const known[] = {".obj", ".gltf", ".glb", ".ply", ".stl"};
+  return std::find(std::begin(known), std::end(known), extension) != std::end(known);
+}
+
+// The models of a folder and the folders in it, by name; a file is taken as it is.
+void add_models(const fs::path& path, std::vector<fs::path>& models) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) {
+    models.push_back(path);
+    return;
+  }
+  std::vector<fs::path> found;
+  fs::recursive_directory_iterator entry(path, fs::directory_options::skip_permission_denied, error), end;
+  for (; !error && entry != end; entry.increment(error)) {
+    std::error_code ignored;
+    if (is_model(entry->path()) && entry->is_regular_file(ignored)) found.push_back(entry->path());
+  }
+  if (error) throw Error(path.string() + ": " + error.message());
+  std::sort(found.begin(), found.end());
+  models.insert(models.end(), found.begin(), found.end());
+}
+
+int columns_for(std::size_t count, const Size& size) {
+  int columns = 1;
+  while (static_cast<std::size_t>(columns) * static_cast<std::size_t>(columns) * static_cast<std::size_t>(size.width) <
+         count * static_cast<std::size_t>(size.height)) {
+    ++columns;
+  }
+  return columns;
+}
+
+Image picture_of(const fs::path& model, const SheetArguments& arguments) {
+  const Scene scene = Scene::load(model, arguments.threads);
+  if (scene.kept_faces().empty()) throw Error(model.string() + ": no face has an area");
+  Renderer::Options options;
+  options.width = arguments.size.width;
+  options.height = arguments.size.height;
+  options.sampling = Renderer::Sampling::Grid;
+  options.samples = 2;
+  options.threads = arguments.threads;
+  options.want_ids = true;
+  options.ambient = {0.1f, 0.1f, 0.1f};
+  options.background = Color::from_24_bit(0xd0d8e0);
+  View view;
+  view.projection = ProjectionKind::Plane;
+  return Renderer(scene, make_up_view(scene, view), make_up_lights(scene), options).render();
+}
+
+int draw_sheet(const SheetArguments& arguments) {
+  if (arguments.paths.empty()) throw UsageError("no model or folder is given");
+  check_png_output(arguments.output, {});
+  std::vector<fs::path> models;
+  for (const fs::path& path : arguments.paths) add_models(path, models);
+  if (models.empty()) throw Error(arguments.paths[0].string() + ": no model is there");
+  const int columns = arguments.columns > 0 ? arguments.columns : columns_for(models.size(), arguments.size);
+  ContactSheet sheet(models.size(), columns, arguments.size.width, arguments.size.height);
+
+  ProgressLine line(!arguments.quiet);
+  std::ostream& list = is_standard_output(arguments.output) ? std::cerr : std::cout;
+  std::size_t refused = 0, flagged = 0;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    line.show(static_cast<double>(i) / static_cast<double>(models.size()), models[i].filename().c_str());
+    std::string verdict;
+    try {
+      const Image picture = picture_of(models[i], arguments);
+      const PictureFlag flag = flag_of(picture);
+      sheet.put(i, picture);
+      if (flag != PictureFlag::None) verdict = std::string("  flagged: ") + name_of(flag);
+      flagged += flag != PictureFlag::None;
+    } catch (const Error& error) {
+      sheet.cross_out(i);
+      verdict = std::string("  refused: ") + error.what();
+      ++refused;
+    } catch (const std::bad_alloc&) {
+      sheet.cross_out(i);
+      verdict = "  refused: not enough memory";
+      ++refused;
+    }
+    line.clear();
+    list << i + 1 << "  " << models[i].string() << verdict << '\n' << std::flush;
+  }
+  if (is_standard_output(arguments.output)) {
+    write_to_standard_output(encode_png(sheet.image(), arguments.threads));
+  } else {
+    write_whole([&] { write_png(sheet.image(), arguments.output, arguments.threads); });
+  }
+  list << models.size() - refused << " drawn, " << flagged << " of them flagged; " << refused << " refused\n";
+  return flagged == 0 ? kDone : kFailed;
+}
+
+}  // namespace
+
+Command sheet_command() {
+  const auto arguments = std::make_shared<SheetArguments>();
+  SheetArguments& a = *arguments;
+  const auto path = [](const std::string& text) { return fs::path(text); };
+  Command command;
+  command.name = "sheet";
+  command.summary = "Draw small pictures of many models on one sheet";
+  command.text =
+      "Draws each model as the others, numbers the pictures and lists them on standard output. A file that is refused\n"
+      "is crossed out and listed with the reason. A picture in which hardly anything is seen, or nearly all of it is\n"
+      "black or white, is flagged; then the exit code is 1.\n";
+  command.options = {
+      {"MODEL", "", "", "models, and folders with models: OBJ, glTF, PLY and STL files",
+       [&a](const std::string& text) { a.paths.emplace_back(text); }, true},
+      {"-o,--output", "FILE", "", "the sheet: PNG; - writes it to standard output", into(a.output, path)},
+      {"--size", "WxH", "256x256", "pixels of each picture", into(a.size, parse_size)},
+      {"--columns", "N", "by their number", "pictures in a row",
+       into(a.columns, [](const std::string& text) { return parse_whole_number(text, 1, 1000); })},
+      {"--threads", "N", "0", "threads at work; 0: as many as there are processors", into(a.threads, parse_threads)},
+      {"-q,--quiet", "", "", "no progress", [&a](const std::string&) { a.quiet = true; }},
+  };
+  command.examples = {
+      {"facemap sheet models -o sheet.png", "everything in a folder"},
+      {"facemap sheet old.obj new.obj -o both.png --size 512x512", "two models, side by side"},
+  };
+  command.run = [arguments] { return draw_sheet(*arguments); };
+  return command;
+}
+
+}  // namespace facemap::program
