@@ -55,7 +55,7 @@ const MaterialTable::Entry* MaterialTable::entry_of(std::uint32_t face) const {
 
 bool MaterialTable::has_textures(std::uint32_t face) const {
   const Entry* const entry = entry_of(face);
-  return entry != nullptr && entry->has_textures;
+  return entry != nullptr && entry->has_textures && has_texture_coordinates(scene_.mesh(), face);
 }
 
 void MaterialTable::set_up(FaceFrame& frame, std::uint32_t face) const {
@@ -67,7 +67,7 @@ void MaterialTable::set_up(FaceFrame& frame, std::uint32_t face) const {
 }
 
 MaterialTable::Spot MaterialTable::spot_of(const SeenSurface& seen, const FaceFrame& frame) const {
-  return {weighted(frame.coordinates.uv, seen.weights),
+  return {true, weighted(frame.coordinates.uv, seen.weights),
           footprint_of(frame.corners, frame.gradient, seen.camera, seen.rays)};
 }
 
@@ -76,13 +76,13 @@ TextureValue MaterialTable::value(const Map& map, const Spot& spot, const Textur
 }
 
 DVector MaterialTable::colour(const Map& map, const Spot& spot, const Vector& factor) {
-  if (map.texture == nullptr) return DVector(factor);
+  if (map.texture == nullptr || !spot.is_known) return DVector(factor);
   const TextureValue texel = value(map, spot);
   return DVector(factor) * (DVector(texel.r, texel.g, texel.b) * double{map.use->gain} + double{map.use->base});
 }
 
 double MaterialTable::number(const Map& map, const Spot& spot, float factor) {
-  if (map.texture == nullptr) return factor;
+  if (map.texture == nullptr || !spot.is_known) return factor;
   return factor * (chosen(value(map, spot), map.use->channel) * map.use->gain + map.use->base);
 }
 
@@ -138,7 +138,7 @@ SurfaceLook MaterialTable::look(const SeenSurface& seen, FaceFrame& frame) const
     return look;
   }
   Spot spot;
-  if (entry->has_textures) {
+  if (has_textures(seen.face)) {
     set_up(frame, seen.face);
     spot = spot_of(seen, frame);
     look.normal = relief(*entry, spot, seen, frame);

@@ -53,7 +53,8 @@ class MaterialTable {
 
   const std::vector<std::string>& warnings() const { return textures_.warnings(); }
 
-  /// Whether look() needs the rays to the right and down for a face.
+  /// Whether look() needs the rays to the right and down for a face. A face without texture coordinates has no
+  /// textures.
   bool has_textures(std::uint32_t face) const;
 
   /// `frame`: working memory of the caller, from call to call.
@@ -80,6 +81,7 @@ class MaterialTable {
 
   /// Where on its textures a point is.
   struct Spot {
+    bool is_known = false;  ///< else textures are left out
     TexturePoint uv{0};
     Footprint footprint;
   };

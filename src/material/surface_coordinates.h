@@ -48,6 +48,12 @@ struct CornerCoordinates {
   TexturePoint uv[3] = {TexturePoint(0), TexturePoint(0), TexturePoint(0)};
 };
 
+inline bool has_texture_coordinates(const Mesh& mesh, std::size_t face) {
+  if (mesh.texture_corners.empty()) return false;
+  const Corners& corners = mesh.texture_corners[face];
+  return corners[0] != kNoIndex || corners[1] != kNoIndex || corners[2] != kNoIndex;
+}
+
 inline CornerCoordinates texture_corners_of(const Mesh& mesh, std::size_t face) {
   CornerCoordinates result;
   if (mesh.texture_corners.empty()) return result;

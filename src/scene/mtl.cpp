@@ -18,11 +18,12 @@ std::string_view token_at(const char* at) { return {at, static_cast<std::size_t>
 /// What a material's statements said, as far as that decides what others mean.
 struct Stated {
   bool opacity = false, metallic = false, roughness = false;
+  bool diffuse_map = false;  ///< even one that is not there
 };
 
 /// A colour of zero would hide its texture: writers that put it there mean the texture alone.
-void show(const TextureUse& map, Vector& colour) {
-  if (map.is_used() && colour == Vector(0)) colour = Vector(1);
+void show(bool has_map, Vector& colour) {
+  if (has_map && colour == Vector(0)) colour = Vector(1);
 }
 
 /// The roughness whose highlight is about as wide as a Blinn-Phong one: alpha^2 = 2 / (Ns + 2), alpha = roughness^2.
@@ -30,9 +31,9 @@ float roughness_of(float shininess) { return std::sqrt(std::sqrt(2 / (std::max(0
 
 /// Settles what follows from a material's statements together.
 void complete(const Stated& stated, Material& material) {
-  show(material.diffuse_map, material.diffuse);
-  show(material.specular_map, material.specular);
-  show(material.emission_map, material.emission);
+  show(stated.diffuse_map, material.diffuse);
+  show(material.specular_map.is_used(), material.specular);
+  show(material.emission_map.is_used(), material.emission);
   const bool is_metal_rough =
       stated.metallic || stated.roughness || material.metallic_map.is_used() || material.roughness_map.is_used();
   if (is_metal_rough) {
@@ -151,6 +152,7 @@ class MtlReader {
   void read_texture(const char* at, TextureUse& use) {
     MtlTexture texture = read_mtl_texture(at);
     if (texture.name.empty()) return warnings_.add(lines_.number(), "texture without a name");
+    stated_.diffuse_map |= &use == &materials_.back().diffuse_map;
     texture.use.image = images_.add(folder_, texture.name, lines_.number(), warnings_);
     if (texture.use.is_used()) use = texture.use;
   }

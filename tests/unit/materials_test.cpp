@@ -138,6 +138,17 @@ TEST(Materials, DiffuseFactorAndVertexColoursMultiply) {
   expect_colour(at(picture(Scene(model)), 0.5, -0.5), 0.5, 1, 0);
 }
 
+TEST(Materials, FacesWithoutTextureCoordinatesHaveNoTextures) {
+  Material material = with_diffuse_map();
+  material.diffuse = {0.5f, 0.25f, 0.125f};
+  Model model = square(material);
+  model.mesh.texture_corners[1] = {kNoIndex, kNoIndex, kNoIndex};
+  const Image image = picture(Scene(model));
+  expect_colour(at(image, -0.5, 0.6), 0.5, 0.25, 0.125);
+  expect_colour(at(image, 0.6, -0.5), 0.5, 0.25, 0.125);
+  expect_colour(at(image, -0.5, -0.7), 0, 0, 0.125);
+}
+
 TEST(Materials, FacesWithoutOneAreWhite) {
   Model model = square(with_diffuse_map());
   model.mesh.triangle_materials = {kNoIndex, 0};

@@ -17,10 +17,11 @@ struct Parsed {
   std::vector<std::string> warnings;
 };
 
-Parsed parse(const std::string& text) {
+// `folder`: textures are looked for in it; none: each is taken as there.
+Parsed parse(const std::string& text, const std::filesystem::path& folder = {}) {
   Parsed parsed;
   ObjWarnings warnings("test.mtl");
-  ImageTable images({}, false);
+  ImageTable images(folder, false);
   parse_mtl(text, {}, images, warnings, parsed.materials);
   parsed.images = std::move(images.images());
   warnings.append_to(parsed.warnings);
@@ -159,6 +160,15 @@ TEST(Mtl, ATextureShowsWhereItsFactorIsZero) {
   EXPECT_EQ(parsed.materials[0].shininess, 1);
   EXPECT_EQ(parsed.materials[1].diffuse, Vector(0));
   EXPECT_EQ(parsed.materials[1].emission, Vector(0.5f, 0, 0));
+}
+
+TEST(Mtl, ATextureThatIsAbsentLeavesAWhiteSurfaceNotABlackOne) {
+  const Parsed parsed = parse("newmtl a\nKd 0 0 0\nmap_Kd no-such-texture.png\nnewmtl b\nKd 0 0 0\n",
+                              std::filesystem::temp_directory_path());
+  EXPECT_EQ(parsed.warnings.size(), 1u);
+  EXPECT_FALSE(parsed.materials[0].diffuse_map.is_used());
+  EXPECT_EQ(parsed.materials[0].diffuse, Vector(1));
+  EXPECT_EQ(parsed.materials[1].diffuse, Vector(0));
 }
 
 TEST(Mtl, WhereNothingWouldBeSeenAllIsOpaque) {
