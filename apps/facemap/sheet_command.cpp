@@ -10,8 +10,9 @@
 #include "commands.h"
 #include "contact_sheet.h"
 #include "exit_codes.h"
-#include "interrupt.h"
+#include "file_format.h"
 #include "output.h"
+#include "pending_files.h"
 #include "progress_line.h"
 #include "text_values.h"
 #include "usage_error.h"
@@ -74,7 +75,7 @@ Image picture_of(const fs::path& model, const SheetArguments& arguments) {
   options.sampling = Renderer::Sampling::Grid;
   options.samples = 2;
   options.threads = arguments.threads;
-  options.want_ids = true;
+  options.planes = {Plane::Id};
   options.ambient = {0.1f, 0.1f, 0.1f};
   options.background = Color::from_24_bit(0xd0d8e0);
   View view;
@@ -84,7 +85,8 @@ Image picture_of(const fs::path& model, const SheetArguments& arguments) {
 
 int draw_sheet(const SheetArguments& arguments) {
   if (arguments.paths.empty()) throw UsageError("no model or folder is given");
-  check_png_output(arguments.output, {});
+  const FileFormat format = format_of(arguments.output);
+  check_picture_output(arguments.output, {});
   std::vector<fs::path> models;
   for (const fs::path& path : arguments.paths) add_models(path, models);
   if (models.empty()) throw Error(arguments.paths[0].string() + ": no model is there");
@@ -115,11 +117,7 @@ int draw_sheet(const SheetArguments& arguments) {
     line.clear();
     list << i + 1 << "  " << models[i].string() << verdict << '\n' << std::flush;
   }
-  if (is_standard_output(arguments.output)) {
-    write_to_standard_output(encode_png(sheet.image(), arguments.threads));
-  } else {
-    write_whole([&] { write_png(sheet.image(), arguments.output, arguments.threads); });
-  }
+  write_output(arguments.output, encode_picture(sheet.image(), format, {}, {}, arguments.threads));
   list << models.size() - refused << " drawn, " << flagged << " of them flagged; " << refused << " refused\n";
   return flagged == 0 ? kDone : kFailed;
 }
@@ -140,7 +138,8 @@ Command sheet_command() {
   command.options = {
       {"MODEL", "", "", "models, and folders with models: OBJ, glTF, PLY and STL files",
        [&a](const std::string& text) { a.paths.emplace_back(text); }, true},
-      {"-o,--output", "FILE", "", "the sheet: PNG; - writes it to standard output", into(a.output, path)},
+      {"-o,--output", "FILE", "", "the sheet: .png, .jpg, .exr, .pfm or .npy; - writes PNG to standard output",
+       into(a.output, path)},
       {"--size", "WxH", "256x256", "pixels of each picture", into(a.size, parse_size)},
       {"--columns", "N", "by their number", "pictures in a row",
        into(a.columns, [](const std::string& text) { return parse_whole_number(text, 1, 1000); })},
