@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "light_flags.h"
 #include "output.h"
 #include "usage_error.h"
 
@@ -95,7 +96,17 @@ std::vector<Option> view_options(RenderArguments& a) {
 std::vector<Option> light_options(RenderArguments& a) {
   return {
       {"--light", "X,Y,Z[,R,G,B]", "eight made up",
-       "a point light and its linear colour, 1,1,1 if left out; once a light", append_to(a.lights, parse_light), true},
+       "a point light and its linear colour, 1,1,1 if left out; once a light; range=R or falloff may follow: nothing "
+       "beyond R, fading with the squared distance",
+       append_to(a.lights, parse_light), true},
+      {"--spot", "X,Y,Z,DX,DY,DZ,ANGLE[,INNER][,R,G,B]", "",
+       "a spot light, its direction and the angle of its cone in degrees, from side to side; full intensity within "
+       "INNER, 0 if left out; then as --light",
+       append_to(a.lights, parse_spot), true},
+      {"--sun", "DX,DY,DZ[,R,G,B]", "",
+       "a directional light, by the way its light goes; in a light mask point lights come first, then spots, then "
+       "these",
+       append_to(a.lights, parse_sun), true},
       {"--intensity", "FACTOR", "1", "multiplies the colour of every light", into(a.intensity, parse_number)},
       one_of("--falloff", "constant", "how light fades with distance: constant or inverse-square", a.options.falloff,
              {"constant", "inverse-square"}),

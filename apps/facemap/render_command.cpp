@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "exit_codes.h"
 #include "frame_writer.h"
+#include "light_flags.h"
 #include "model.h"
 #include "progress_line.h"
 #include "render_arguments.h"

@@ -146,15 +146,6 @@ Color parse_color(const std::string& text) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-Light parse_light(const std::string& text) {
-  const std::vector<float> numbers = read_numbers(text);
-  if (numbers.size() != 3 && numbers.size() != 6) refuse(text, "a light x,y,z or x,y,z,r,g,b");
-  Light light;
-  light.position = {numbers[0], numbers[1], numbers[2]};
-  if (numbers.size() == 6) light.color = {numbers[3], numbers[4], numbers[5]};
-  return light;
-}
-
 Size parse_size(const std::string& text) {
   Size size;
   if (!read_pair(text, size.width, size.height)) refuse(text, "a size in pixels such as 1024x768");
@@ -194,6 +185,7 @@ int parse_choice(const std::string& text, const std::vector<std::string>& choice
 }
 
 std::string text_of(float value) { return shortest(value); }
+std::string text_of(double value) { return shortest(value); }
 
 std::string text_of(const Vector& vector) {
   return text_of(vector.x) + "," + text_of(vector.y) + "," + text_of(vector.z);

@@ -34,9 +34,6 @@ Vector parse_vector(const std::string& text);
 /// "r,g,b", linear, or "#rrggbb", sRGB.
 Color parse_color(const std::string& text);
 
-/// "x,y,z" or "x,y,z,r,g,b".
-Light parse_light(const std::string& text);
-
 /// "WxH", pixels. Refuses more than kMaxPixels.
 struct Size {
   int width = 1024;
@@ -57,6 +54,7 @@ int parse_choice(const std::string& text, const std::vector<std::string>& choice
 
 /// The shortest text that reads back as the same float32.
 std::string text_of(float value);
+std::string text_of(double value);
 std::string text_of(const Vector& vector);
 
 /// Degrees, shortest text of a double.

@@ -48,14 +48,4 @@ std::string flags_of(const View& view) {
   return flags;
 }
 
-std::string flags_of(const std::vector<Light>& lights) {
-  std::string flags;
-  for (const Light& light : lights) {
-    const Color color = light.color * light.intensity;
-    flags += (flags.empty() ? "--light " : " --light ") + text_of(light.position) + "," +
-             text_of(Vector(color.r, color.g, color.b));
-  }
-  return flags;
-}
-
 }  // namespace facemap::program

@@ -26,8 +26,7 @@ struct WantedView {
 /// it.
 View complete_view(const Scene& scene, const WantedView& wanted);
 
-/// Both as flags that give the same values again.
+/// As flags that give the same values again.
 std::string flags_of(const View& view);
-std::string flags_of(const std::vector<Light>& lights);
 
 }  // namespace facemap::program

@@ -79,7 +79,7 @@ TEST_F(Program, RefusesValuesThatMakeNoSense) {
       {"--camera 1,2,3,", "--camera: '1,2,3,' is not three numbers x,y,z"},
       {"--camera '1, 2, 3'", "--camera: '1, 2, 3' is not three numbers x,y,z"},
       {"--camera 0x1,2,3", "--camera: '0x1,2,3' is not three numbers x,y,z"},
-      {"--light 1,2,3,4", "--light: '1,2,3,4' is not a light x,y,z or x,y,z,r,g,b"},
+      {"--light 1,2,3,4", "--light: '1,2,3,4' is not a light x,y,z or x,y,z,r,g,b, with range=R or falloff at the end"},
       {"--field-angle 0", "--field-angle: '0' is not an angle of more than 0 to 360 degrees"},
       {"--field-angle 361", "--field-angle: '361' is not an angle of more than 0 to 360 degrees"},
       {"--projection mercator", "--projection: 'mercator' is not surface or plane"},
