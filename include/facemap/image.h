@@ -29,7 +29,7 @@ struct Image {
   std::vector<std::int32_t> objects;    ///< into Scene::objects(); -1, also where it has none
   std::vector<std::int32_t> materials;  ///< into Scene::materials(); -1, also where it has none
   std::vector<std::uint8_t> lights;   ///< ceil(light_count/8) bytes, least significant bit first, 1 = it gets there; 0
-  std::vector<std::int32_t> shadows;  ///< lights that do not get there: hidden, turned away, or beyond their cone; -1
+  std::vector<std::int32_t> shadows;  ///< lights that do not get there: hidden, turned away, beyond cone or range; -1
   int light_count = 0;
 
   int light_bytes() const { return (light_count + 7) / 8; }
