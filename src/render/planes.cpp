@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "map/face_planes.h"
+#include "material/surface_coordinates.h"
 #include "math/dvector.h"
 #include "math/exact_sign.h"
 #include "picture/ray_table.h"
@@ -75,18 +76,12 @@ void put_shadows(std::size_t pixel, Image& image) {
   image.shadows[pixel] = image.light_count - lit;
 }
 
-bool has_coordinates(const Mesh& mesh, std::uint32_t face) {
-  if (mesh.texture_corners.empty()) return false;
-  const Corners& corners = mesh.texture_corners[face];
-  return corners[0] != kNoIndex && corners[1] != kNoIndex && corners[2] != kNoIndex;
-}
-
 void put_surface(const Mesh& mesh, const ShadedSurface& surface, Image& image) {
   const std::size_t pixel = surface.sample;
   const DVector& albedo = surface.look.albedo;
   if (!image.normals.empty()) image.normals[pixel] = Vector(surface.look.normal);
   if (!image.albedos.empty()) image.albedos[pixel] = Color{float(albedo.x), float(albedo.y), float(albedo.z)};
-  if (image.uvs.empty() || !has_coordinates(mesh, surface.seen.face)) return;
+  if (image.uvs.empty() || !has_texture_coordinates(mesh, surface.seen.face)) return;
   image.uvs[pixel] = glm::vec2(weighted(texture_corners_of(mesh, surface.seen.face).uv, surface.seen.weights));
 }
 
