@@ -122,6 +122,13 @@ std::vector<Option> quality_options(RenderArguments& a) {
        "rays a pixel: 1; a grid such as 4x4; edges for one ray and 4x4 where a pixel may hold an edge (edges:8 for "
        "8x8)",
        into(a.samples, parse_samples)},
+      one_of(
+          "--filter", "box",
+          "how samples make a pixel: box, the mean of those in it; blackman-harris, weighted by a smooth window that "
+          "reaches into the neighbours",
+          a.options.filter, {"box", "blackman-harris"}),
+      {"--filter-width", "PIXELS", "1.5", "width of that window, at most 16",
+       into(a.options.filter_width, parse_number)},
       one_of("--normals", "smooth", "smooth (where the file has normals or smoothing groups) or flat",
              a.options.normals, {"flat", "smooth"}),
       {"--terminator-fix",

@@ -52,7 +52,14 @@ class Renderer {
   enum class Falloff { Constant, InverseSquare };
   enum class Sampling {
     Grid,   ///< samples x samples fixed points a pixel
-    Edges,  ///< the paper's way (Fig. 3): one sample, and samples x samples where the pixel may hold an edge
+    Edges,  ///< the paper's idea (Fig. 3): one sample, and samples x samples where the pixel may hold an edge of a
+            ///< face or of a shadow (docs/quality.md)
+  };
+
+  /// How the samples about a pixel make its colour.
+  enum class Filter {
+    Box,             ///< the mean of those in the pixel
+    BlackmanHarris,  ///< weighted by a window that reaches into the neighbours: less jagged, a little softer
   };
 
   /// How the questions of a picture are answered; the answers are the same.
@@ -75,6 +82,8 @@ class Renderer {
     Sampling sampling = Sampling::Grid;
     int samples = 1;                              ///< a side of the grid in a pixel, 1..16
     std::optional<PixelBox> crop = std::nullopt;  ///< only these of the picture's pixels are made: the image is theirs
+    Filter filter = Filter::Box;
+    double filter_width = 1.5;                    ///< of the Blackman-Harris window, in pixels, above 0 and at most 16
     Normals normals = Normals::Smooth;            ///< smooth where the file gives normals or smoothing groups
     bool shadow_terminator_fix = true;            ///< Hanika 2021; matters with smooth normals only
     Falloff falloff = Falloff::Constant;

@@ -66,9 +66,7 @@ StrategyChoice transposed(const Renderer::Options& options, const PictureWork& w
 StrategyChoice choose_strategy(const Renderer::Options& options, const PictureWork& work) {
   using Strategy = Renderer::Strategy;
   if (options.builder == Builder::Fill) return {Strategy::Lists, "the published builder makes lists"};
-  if (options.sampling == Renderer::Sampling::Edges) {
-    return {Strategy::Lists, "pixels with edges are known from the camera's lists"};
-  }
+  if (is_by_samples(options)) return {Strategy::Lists, "edges of one sample a pixel are asked of lists"};
   if (options.strategy == Strategy::Lists) return {Strategy::Lists, "asked for"};
   if (options.strategy == Strategy::Transposed) return transposed(options, work, "asked for");
   const double list_bytes = static_cast<double>(work.faces) * static_cast<double>(work.lights) * kListBytesPerFace;

@@ -19,6 +19,12 @@ struct PictureWork {
   std::size_t map_memory = 0;  ///< Options::map_memory
 };
 
+/// Whether a picture is made sample by sample from lists of faces, by Painter: the published builder needs it, and with
+/// Sampling::Edges but nothing to divide it is what the ways that take all samples together are held against.
+inline bool is_by_samples(const Renderer::Options& options) {
+  return options.builder == Builder::Fill || (options.sampling == Renderer::Sampling::Edges && options.samples == 1);
+}
+
 /// Estimated milliseconds of one thread for all lights' shadows, by each strategy.
 struct PictureCost {
   double transposed = 0;

@@ -55,6 +55,12 @@ void validate(const Renderer::Options& options, const std::vector<Light>& lights
                            box.width <= options.width - box.x && box.height <= options.height - box.y;
     if (!is_inside) throw Error("crop must be at least one pixel and lie within the picture");
   }
+  if (!(options.filter_width > 0) || !(options.filter_width <= 16)) {
+    throw Error("the filter's width must be above 0 and at most 16 pixels");
+  }
+  if (options.filter != Renderer::Filter::Box && options.builder == Builder::Fill) {
+    throw Error("the published builder (fill) knows the box filter alone");
+  }
   if (!is_valid(options.background)) throw Error("background must be finite and not negative");
   if (!is_valid(options.ambient) || !is_valid(options.sky_up) || !is_valid(options.sky_down)) {
     throw Error("ambient and sky colours must be finite and not negative");
@@ -167,12 +173,12 @@ Image Renderer::make(const Request& request) {
   if (request.wants_colours) load_materials();
   const bool by_lists = choice.strategy == Strategy::Lists;
   build_lists(request, by_lists);
-  // The paper's renderer, sample by sample: what its builder and its way of sampling need.
-  if (options.builder == Builder::Fill || options.sampling == Sampling::Edges) return paint_by_lists(request);
+  if (is_by_samples(options)) return paint_by_lists(request);
 
   WholePicture picture(*scene_, view_, lights_, options, kept_->executor, kept_->transposed, kept_->lists, by_lists,
                        choice.keeps_bounds, kept_->materials.get(), statistics_, request.report);
-  Image image = request.wants_colours ? picture.paint() : picture.look();
+  const bool by_edges = options.sampling == Sampling::Edges;
+  Image image = !request.wants_colours ? picture.look() : by_edges ? picture.paint_edges() : picture.paint();
   if (!by_lists) {
     const PictureCost cost = estimate_cost(work);
     kept_->spent_in_vain += std::max(0.0, cost.transposed - cost.lists);

@@ -10,6 +10,7 @@
 #include "picture/nearest_faces.h"
 #include "picture/sample_grid.h"
 #include "picture/seen_points.h"
+#include "render/filtered_rows.h"
 #include "render/picture_frame.h"
 #include "render/shade_picture.h"
 #include "render/stopwatch.h"
@@ -85,13 +86,6 @@ std::vector<Color> mean_of_samples(const SampleGrid& grid, const std::vector<Col
 
 }  // namespace
 
-/// What the samples of a grid see, and which lights reach it.
-struct WholePicture::Seen {
-  SampleGrid grid;
-  std::vector<FaceId> faces;  // one a sample
-  SeenPoints points;          // masks: the lights that reach them
-};
-
 WholePicture::WholePicture(const Scene& scene, const View& view, const std::vector<Light>& lights,
                            const Renderer::Options& options, const Executor& executor, TransposedState& state,
                            const ListsOfLights& lists, bool asks_lists, bool keeps_bounds,
@@ -155,11 +149,12 @@ void WholePicture::report(double share, const char* phase) {
   report_((static_cast<double>(bands_done_) + share) / static_cast<double>(band_count_), phase);
 }
 
-WholePicture::Seen WholePicture::see(const SampleGrid& grid) {
+WholePicture::Seen WholePicture::see(const SampleGrid& grid, const Selection& select) {
   const Stopwatch camera_time;
   report(0, "camera map");
   NearestFaces nearest = find_nearest_faces(scene_, grid, executor_, &statistics_.camera_tests);
   statistics_.camera_queries += grid.count();
+  if (select) select(nearest.faces);
   SeenPoints seen = find_seen_points(scene_, grid, nearest, places_, executor_);
   statistics_.camera_map_ms += camera_time.milliseconds();
   ask_lights(grid, seen);
@@ -268,6 +263,9 @@ Image WholePicture::paint() {
   const std::vector<SampleGrid> grids = bands(options_.samples);
   const std::vector<SampleGrid> centres = wants_planes && !centres_are_sampled ? bands(1) : std::vector<SampleGrid>();
   band_count_ = grids.size() + centres.size();
+  const bool is_box = options_.filter == Renderer::Filter::Box;
+  FilteredRows filtered(PixelFilter(options_.filter, options_.filter_width, options_.samples), image.width,
+                        image.height);
 
   for (const SampleGrid& band : grids) {
     const SampleGrid grid = with_directions(band);
@@ -276,10 +274,15 @@ Image WholePicture::paint() {
     report(0.8, "shade");
     if (!transposes_) colors_.assign(grid.count(), options_.background);
     shade_points(scene_, grid, seen.points, lights_, options_, executor_, colors_, materials_);
-    if (!centres_are_sampled) colors_ = mean_of_samples(grid, colors_, executor_);
-    put_band(std::move(colors_),
-             first_row_of(grid) / static_cast<std::size_t>(options_.samples) * static_cast<std::size_t>(image.width),
-             pixels, image.pixels);
+    if (!is_box) {
+      image.pixels.resize(pixels);
+      filtered.add(grid.rows(), colors_, executor_, image.pixels.data());
+    } else {
+      if (!centres_are_sampled) colors_ = mean_of_samples(grid, colors_, executor_);
+      put_band(std::move(colors_),
+               first_row_of(grid) / static_cast<std::size_t>(options_.samples) * static_cast<std::size_t>(image.width),
+               pixels, image.pixels);
+    }
     if (wants_planes && centres_are_sampled) {
       put_planes(std::move(seen), image);
     }

@@ -9,10 +9,16 @@
 #include "material/material_table.h"
 #include "parallel/executor.h"
 #include "picture/lit_points.h"
+#include "picture/sample_grid.h"
+#include "picture/seen_points.h"
 #include "picture/shadows.h"
 #include "scene/closed_parts.h"
 
 namespace facemap {
+
+class DividedPixels;
+class EdgePixels;
+struct SampleLights;
 
 /// What the transposed strategy keeps from picture to picture of one scene.
 struct TransposedState {
@@ -37,18 +43,30 @@ class WholePicture {
   /// As Renderer::render.
   Image paint();
 
+  /// The same with Sampling::Edges.
+  Image paint_edges();
+
   /// As Renderer::look.
   Image look();
 
  private:
-  struct Seen;
+  /// What the samples of a grid see, and which lights reach it.
+  struct Seen {
+    SampleGrid grid;
+    std::vector<FaceId> faces;  // one a sample
+    SeenPoints points;          // masks: the lights that reach them
+  };
+  using Selection = std::function<void(std::vector<FaceId>& faces)>;
   std::vector<SampleGrid> bands(int per_side) const;
   SampleGrid with_directions(SampleGrid band);
   std::size_t first_row_of(const SampleGrid& grid) const;
-  Seen see(const SampleGrid& grid);
+  Seen see(const SampleGrid& grid, const Selection& select = {});
   void prepare_lights(const SampleGrid& grid, const MovedPoints& moved, SeenPoints& seen);
   void ask_lights(const SampleGrid& grid, SeenPoints& seen);
   Image empty_image(int per_side) const;
+  SampleLights lights_of(const Seen& seen) const;
+  void paint_centres(EdgePixels& edges, Image& image);
+  void divide(const SampleGrid& grid, int rows, bool is_first, EdgePixels& edges, DividedPixels& divided);
   void put_planes(Seen&& seen, Image& image) const;
   void report(double share, const char* phase);
 

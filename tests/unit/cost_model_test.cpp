@@ -52,7 +52,10 @@ TEST(CostModel, WhatIsAskedForIsDone) {
   EXPECT_EQ(choose_strategy(options, work(100'000, 1'000'000)).strategy, Strategy::Lists);
   options.strategy = Strategy::Transposed;
   EXPECT_EQ(choose_strategy(options, work(100'000, 100)).strategy, Strategy::Transposed);
-  options.sampling = Renderer::Sampling::Edges;  // needs the camera's lists
+  options.samples = 4;
+  options.sampling = Renderer::Sampling::Edges;
+  EXPECT_EQ(choose_strategy(options, work(100'000, 1'000'000)).strategy, Strategy::Transposed);
+  options.samples = 1;  // sample by sample
   EXPECT_EQ(choose_strategy(options, work(100'000, 1'000'000)).strategy, Strategy::Lists);
 }
 

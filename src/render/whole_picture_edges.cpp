@@ -1,0 +1,86 @@
+#include <algorithm>
+
+#include "render/divided_pixels.h"
+#include "render/edge_pixels.h"
+#include "render/shade_picture.h"
+#include "render/stopwatch.h"
+#include "render/whole_picture.h"
+
+namespace facemap {
+namespace {
+
+// A round that divides fewer pixels, as a share of all, is not worth its price: the camera's faces are found anew for
+// it. It is the last one.
+constexpr double kLeastShare = 1.0 / 1024;
+
+}  // namespace
+
+// One ray a pixel, then the samples of the pixels that may hold an edge. The camera's faces are found for all samples:
+// that costs little beside light, and no edge between faces is missed.
+Image WholePicture::paint_edges() {
+  Image image = empty_image(1);
+  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  const int n = options_.samples;
+  image.pixels.resize(pixels);
+  EdgePixels edges(scene_, view_, options_, materials_, executor_);
+  std::vector<SampleGrid> grids = bands(n);
+  band_count_ = bands(1).size() + 2 * grids.size();
+  paint_centres(edges, image);
+
+  const bool is_box = options_.filter == Renderer::Filter::Box;
+  DividedPixels divided(PixelFilter(options_.filter, options_.filter_width, n), is_box, image.width, image.pixels);
+  bool is_first = true, is_last = false;
+  while (!is_last) {
+    for (SampleGrid grid : grids) {
+      const int first = grid.first_row / n, rows = grid.rows() / n;
+      if (!is_first && !edges.any_divided(first, first + rows)) continue;
+      if (grid.first_row + grid.row_count < grid.rows_of_picture()) grid.row_count += n;
+      divide(grid, rows, is_first, edges, divided);
+      bands_done_ = std::min(bands_done_ + 1, band_count_ - 1);
+    }
+    is_first = false;
+    is_last = static_cast<double>(edges.next_round()) <= kLeastShare * static_cast<double>(pixels);
+  }
+  const Stopwatch filter_time;
+  divided.finish(executor_);
+  statistics_.upsampled_pixels = divided.count();
+  statistics_.shade_ms += filter_time.milliseconds();
+  report_(1, "shade");
+  return image;
+}
+
+SampleLights WholePicture::lights_of(const Seen& seen) const {
+  return {seen.points.points.samples, lights_that_add(scene_, seen.grid, seen.points, lights_, options_, executor_),
+          seen.points.stride};
+}
+
+void WholePicture::paint_centres(EdgePixels& edges, Image& image) {
+  for (const SampleGrid& grid : bands(1)) {
+    Seen seen = see(grid);
+    const Stopwatch shade_time;
+    colors_.assign(grid.count(), options_.background);
+    shade_points(scene_, grid, seen.points, lights_, options_, executor_, colors_, materials_);
+    std::copy(colors_.begin(), colors_.end(),
+              image.pixels.begin() + static_cast<std::ptrdiff_t>(grid.first_row) * image.width);
+    edges.set_centres(grid, seen.faces, lights_of(seen), colors_);
+    put_planes(std::move(seen), image);
+    statistics_.shade_ms += shade_time.milliseconds();
+    ++bands_done_;
+  }
+}
+
+// `rows` rows of pixels; the grid may have one more, for what is known of its neighbours.
+void WholePicture::divide(const SampleGrid& grid, int rows, bool is_first, EdgePixels& edges, DividedPixels& divided) {
+  Seen seen = see(grid, [&](std::vector<FaceId>& faces) {
+    if (is_first) edges.find_edges(grid, rows, faces);
+    edges.keep_divided(grid, rows, faces);
+  });
+  const Stopwatch shade_time;
+  colors_.resize(std::max(colors_.size(), grid.count()));
+  shade_points(scene_, grid, seen.points, lights_, options_, executor_, colors_, materials_);
+  edges.spread(grid, rows, seen.faces, lights_of(seen));
+  divided.take(grid, rows, edges, seen.faces, colors_, options_.background);
+  statistics_.shade_ms += shade_time.milliseconds();
+}
+
+}  // namespace facemap

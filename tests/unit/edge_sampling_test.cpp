@@ -1,0 +1,177 @@
+// Pictures whose pixels are divided where they may hold an edge, and filtered ones.
+
+#include <facemap/error.h>
+#include <facemap/generators.h>
+#include <facemap/renderer.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace facemap {
+namespace {
+
+using Filter = Renderer::Filter;
+using Strategy = Renderer::Strategy;
+
+Renderer::Options edges(int size, int samples) {
+  Renderer::Options options;
+  options.width = options.height = size;
+  options.samples = samples;
+  options.sampling = Renderer::Sampling::Edges;
+  return options;
+}
+
+struct Made {
+  Image image;
+  std::uint64_t divided;
+};
+
+Made make(const Scene& scene, const Renderer::Options& options) {
+  Renderer renderer(scene, make_up_view(scene), make_up_lights(scene), options);
+  Image image = renderer.render();
+  return {std::move(image), renderer.statistics().upsampled_pixels};
+}
+
+// A sphere of `rings` rings of faces about the origin, smooth or not, on a floor of many coplanar squares.
+Mesh ball_on_floor(int rings, bool smooth) {
+  Mesh mesh;
+  const int columns = 2 * rings;
+  for (int j = 0; j <= rings; ++j) {
+    for (int i = 0; i < columns; ++i) {
+      const double polar = M_PI * j / rings, turn = M_PI * i / rings;
+      mesh.positions.push_back({static_cast<float>(std::sin(polar) * std::cos(turn)),
+                                static_cast<float>(std::cos(polar)),
+                                static_cast<float>(std::sin(polar) * std::sin(turn))});
+    }
+  }
+  mesh.normals = mesh.positions;
+  const auto vertex = [&](int i, int j) { return static_cast<std::uint32_t>(j * columns + i % columns); };
+  for (int j = 0; j < rings; ++j) {
+    for (int i = 0; i < columns; ++i) {
+      if (j > 0) mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i, j + 1)});
+      if (j + 1 < rings) mesh.triangles.push_back({vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+    }
+  }
+  if (smooth) mesh.normal_corners = mesh.triangles;
+  constexpr int kSquares = 8;
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  for (int j = 0; j <= kSquares; ++j) {
+    for (int i = 0; i <= kSquares; ++i) mesh.positions.push_back(Vector(i - 4, -1.5, j - 4));
+  }
+  for (std::uint32_t j = 0; j < kSquares; ++j) {
+    for (std::uint32_t i = 0; i < kSquares; ++i) {
+      const std::uint32_t a = first + j * (kSquares + 1) + i, b = a + kSquares + 1;
+      mesh.triangles.push_back({a, b, a + 1});
+      mesh.triangles.push_back({a + 1, b, b + 1});
+    }
+  }
+  if (smooth) mesh.normal_corners.resize(mesh.triangles.size(), {kNoIndex, kNoIndex, kNoIndex});
+  return mesh;
+}
+
+TEST(EdgeSampling, ThreadsMemoryAndStrategyChangeNothing) {
+  for (const bool smooth : {false, true}) {
+    const Scene scene(ball_on_floor(12, smooth));
+    for (const Filter filter : {Filter::Box, Filter::BlackmanHarris}) {
+      for (const auto sampling : {Renderer::Sampling::Edges, Renderer::Sampling::Grid}) {
+        Renderer::Options options = edges(97, 3);
+        options.sampling = sampling;
+        options.filter = filter;
+        options.threads = 1;
+        const Made expected = make(scene, options);
+        for (const Strategy strategy : {Strategy::Lists, Strategy::Transposed}) {
+          for (const int threads : {1, 2, 3}) {
+            for (const std::size_t memory : {std::size_t{0}, std::size_t{1}}) {
+              options.strategy = strategy;
+              options.threads = threads;
+              options.map_memory = memory;
+              options.planes = threads == 2 ? PlaneSet{Plane::Lights, Plane::Id} : PlaneSet{};
+              const Made made = make(scene, options);
+              EXPECT_TRUE(made.image.pixels == expected.image.pixels)
+                  << static_cast<int>(filter) << " " << static_cast<int>(strategy) << " " << threads << " " << memory;
+              EXPECT_EQ(made.divided, expected.divided);
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(EdgeSampling, DividedPixelsAreThoseOfTheGridAndOthersAreNear) {
+  constexpr double kUnseen = 16.0 / 255;  // levels of square roots that count as one colour (edge_pixels.cpp)
+  const Scene scene(ball_on_floor(24, true));
+  Renderer::Options options = edges(160, 4);
+  const Made some = make(scene, options);
+  options.sampling = Renderer::Sampling::Grid;
+  const Image all = make(scene, options).image;
+  std::size_t same = 0;
+  for (std::size_t i = 0; i < all.pixels.size(); ++i) {
+    same += all.pixels[i] == some.image.pixels[i];
+    EXPECT_NEAR(std::sqrt(all.pixels[i].g), std::sqrt(some.image.pixels[i].g), kUnseen) << i;
+  }
+  EXPECT_GE(same, some.divided);
+  EXPECT_GT(some.divided, 1000u);
+  EXPECT_LT(some.divided, all.pixels.size() / 3);
+}
+
+TEST(EdgeSampling, EdgesThatDoNotShowAreNotDivided) {
+  // Without lights but with an even glow nothing but the outline shows; of flat faces neither.
+  Renderer::Options options = edges(96, 4);
+  options.ambient = {0.5f, 0.5f, 0.5f};
+  const Scene coarse(ball_on_floor(24, true));
+  Renderer renderer(coarse, make_up_view(coarse), {}, options);
+  const Image image = renderer.render();
+  EXPECT_GT(renderer.statistics().upsampled_pixels, 100u);
+  EXPECT_LT(renderer.statistics().upsampled_pixels, 96u * 12);
+  options.normals = Renderer::Normals::Flat;
+  Renderer flat(coarse, make_up_view(coarse), {}, options);
+  flat.render();
+  EXPECT_GT(flat.statistics().upsampled_pixels, renderer.statistics().upsampled_pixels);
+}
+
+TEST(EdgeSampling, WhenEveryPixelIsDividedItIsTheGrid) {
+  Mesh mesh = ball_on_floor(64, false);  // faces smaller than pixels
+  mesh.triangles.resize(mesh.triangles.size() - 128);
+  const Scene scene(mesh);
+  Renderer::Options options = edges(16, 4);
+  options.filter = Filter::BlackmanHarris;
+  const Image some = make(scene, options).image;
+  options.sampling = Renderer::Sampling::Grid;
+  const Image all = make(scene, options).image;
+  EXPECT_TRUE(some.pixels == all.pixels);
+}
+
+TEST(PictureFilter, ABackgroundStaysAsItIs) {
+  const Scene scene(ball_on_floor(4, false));
+  View away;
+  away.position = {0, 20, 0};
+  away.look_at = {0, 30, 0};
+  away.up = {0, 0, 1};
+  Renderer::Options options = edges(20, 4);
+  options.background = {0.1f, 0.2f, 0.3f};
+  options.filter = Filter::BlackmanHarris;
+  for (const auto sampling : {Renderer::Sampling::Edges, Renderer::Sampling::Grid}) {
+    options.sampling = sampling;
+    const Image image = Renderer(scene, away, {}, options).render();
+    for (const Color& pixel : image.pixels) EXPECT_EQ(pixel, options.background);
+  }
+}
+
+TEST(PictureFilter, OutOfRangeIsAnError) {
+  const Scene scene(ball_on_floor(4, false));
+  Renderer::Options options;
+  options.filter = Filter::BlackmanHarris;
+  for (const double width : {0.0, -1.0, 16.5, std::nan("")}) {
+    options.filter_width = width;
+    EXPECT_THROW(Renderer(scene, View(), {}, options), Error) << width;
+  }
+  options.filter_width = 16;
+  EXPECT_NO_THROW(Renderer(scene, View(), {}, options));
+  options.builder = Builder::Fill;
+  EXPECT_THROW(Renderer(scene, View(), {}, options), Error);
+}
+
+}  // namespace
+}  // namespace facemap
