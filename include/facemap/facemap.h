@@ -4,6 +4,7 @@
 #include <facemap/camera.h>
 #include <facemap/color.h>
 #include <facemap/compare.h>
+#include <facemap/display.h>
 #include <facemap/error.h>
 #include <facemap/face.h>
 #include <facemap/face_map.h>

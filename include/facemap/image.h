@@ -1,6 +1,7 @@
 #pragma once
 
 #include <facemap/color.h>
+#include <facemap/display.h>
 #include <facemap/face.h>
 #include <facemap/plane.h>
 #include <facemap/vector.h>
@@ -35,13 +36,18 @@ struct Image {
   int light_bytes() const { return (light_count + 7) / 8; }
 };
 
-/// Writes 8-bit RGB PNG (sRGB). The file appears whole or not at all: it is written under a temporary name
+/// The picture's colours after exposure and curve, still linear; no planes. The same bits on every machine. `threads`
+/// work on it (0: as many as the process may run at once). Throws Error if the exposure is out of range.
+Image displayed(const Image& image, const DisplayTransform& display, int threads = 0);
+
+/// Writes 8-bit RGB PNG. The file appears whole or not at all: it is written under a temporary name
 /// beside `path` and renamed. `threads` work on it (0: as many as the process may run at once); the bytes do not depend
 /// on them. Throws Error, naming the file and the reason (disk full included).
-void write_png(const Image& image, const std::filesystem::path& path, int threads = 0);
+void write_png(const Image& image, const std::filesystem::path& path, int threads = 0,
+               const DisplayTransform& display = {});
 
 /// The bytes of that file, for a pipe or a web server. Throws Error if the image is empty.
-std::vector<std::uint8_t> encode_png(const Image& image, int threads = 0);
+std::vector<std::uint8_t> encode_png(const Image& image, int threads = 0, const DisplayTransform& display = {});
 
 /// Writes one plane as a NumPy .npy file (version 1.0), the same way: [H,W], or [H,W,C] for planes of several numbers a
 /// pixel; float32, int32, or uint8 (Lights). Throws Error, too, if the image has no such plane.

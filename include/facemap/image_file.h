@@ -30,15 +30,9 @@ PlaneView plane_view(const Image& image, Plane plane);
 /// A plane for the eye, as docs/output.md says: near is white, directions and ids are colours, no face is black.
 Image plane_picture(const Image& image, Plane plane);
 
-/// How a level stands for light.
-enum class Transfer {
-  Srgb,    ///< IEC 61966-2-1
-  Linear,  ///< in proportion
-};
-
 /// The colours in levels, three a pixel: clamped to 0..1, rounded to nearest; NaN is 0. `threads` work on them (0: as
 /// many as the process may run at once); the levels do not depend on them.
-std::vector<std::uint8_t> levels_8(const Image& image);  ///< sRGB, as write_png() has them
+std::vector<std::uint8_t> levels_8(const Image& image, Transfer transfer = Transfer::Srgb);  ///< as of write_png()
 std::vector<std::uint16_t> levels_16(const Image& image, Transfer transfer, int threads = 0);
 
 // The bytes of a file. The same planes give the same bytes whatever the threads, and the same pixels on every machine.

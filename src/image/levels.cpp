@@ -34,9 +34,22 @@ void fill_levels(std::span<const Color> colors, Transfer transfer, std::uint16_t
 
 }  // namespace
 
-std::vector<std::uint8_t> levels_8(const Image& image) {
+void encode_linear(const Color* colors, std::size_t count, std::uint8_t* bytes) {
+  const auto level = [](float light) {
+    if (!(light > 0)) return std::uint8_t{0};
+    return light >= 1 ? std::uint8_t{255} : static_cast<std::uint8_t>(std::floor(255.0 * light + 0.5));
+  };
+  for (std::size_t i = 0; i < count; ++i, bytes += 3) {
+    bytes[0] = level(colors[i].r);
+    bytes[1] = level(colors[i].g);
+    bytes[2] = level(colors[i].b);
+  }
+}
+
+std::vector<std::uint8_t> levels_8(const Image& image, Transfer transfer) {
   std::vector<std::uint8_t> levels(3 * image.pixels.size());
-  encode_srgb(image.pixels.data(), image.pixels.size(), levels.data());
+  const auto encode = transfer == Transfer::Srgb ? encode_srgb : encode_linear;
+  encode(image.pixels.data(), image.pixels.size(), levels.data());
   return levels;
 }
 

@@ -21,14 +21,15 @@ constexpr std::size_t kBandBytes = std::size_t{1} << 18;  ///< about, of rows th
 /// Makes bands. One a thread: it keeps its memory.
 class BandMaker {
  public:
-  png::Band make(const Image& image, std::size_t first_row, std::size_t end_row) {
+  png::Band make(const Image& image, Transfer transfer, std::size_t first_row, std::size_t end_row) {
     const auto width = static_cast<std::size_t>(image.width);
     const std::size_t stride = 1 + 3 * width, above = first_row > 0 ? 1 : 0;
     rows_.resize((above + end_row - first_row) * stride + PixelDeflater::kPadding);
+    const auto encode = transfer == Transfer::Srgb ? encode_srgb : encode_linear;
     for (std::size_t y = first_row - above; y < end_row; ++y) {
       std::uint8_t* const row = rows_.data() + (y + above - first_row) * stride;
       row[0] = PNG_FILTER_VALUE_NONE;
-      encode_srgb(image.pixels.data() + y * width, width, row + 1);
+      encode(image.pixels.data() + y * width, width, row + 1);
     }
     const std::uint8_t* const first = rows_.data() + above * stride;
     png::Band band;
@@ -47,7 +48,7 @@ class BandMaker {
   PixelDeflater deflater_;
 };
 
-std::vector<png::Band> make_bands(const Image& image, int threads) {
+std::vector<png::Band> make_bands(const Image& image, Transfer transfer, int threads) {
   const auto height = static_cast<std::size_t>(image.height);
   const std::size_t rows =
       std::clamp<std::size_t>(kBandBytes / (1 + 3 * static_cast<std::size_t>(image.width)), 1, height);
@@ -57,26 +58,27 @@ std::vector<png::Band> make_bands(const Image& image, int threads) {
   executor.for_each(bands.size(), [&](std::size_t i, int worker) {
     std::unique_ptr<BandMaker>& maker = makers[static_cast<std::size_t>(worker)];
     if (!maker) maker = std::make_unique<BandMaker>();
-    bands[i] = maker->make(image, i * rows, std::min(height, (i + 1) * rows));
+    bands[i] = maker->make(image, transfer, i * rows, std::min(height, (i + 1) * rows));
   });
   return bands;
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> encode_png(const Image& image, int threads) {
+std::vector<std::uint8_t> encode_png(const Image& image, int threads, const DisplayTransform& display) {
   const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   if (image.width <= 0 || image.height <= 0 || image.pixels.size() != pixels)
     throw Error("PNG: the image has no pixels");
-  std::vector<png::Band> bands = make_bands(image, threads);
+  const Image shown = display.keeps_light() ? Image() : displayed(image, display, threads);
+  std::vector<png::Band> bands = make_bands(display.keeps_light() ? image : shown, display.transfer, threads);
   std::vector<std::uint8_t> bytes = png::begin_file(image.width, image.height, 8, PNG_COLOR_TYPE_RGB);
-  png::append_chunk(bytes, "sRGB", {PNG_sRGB_INTENT_PERCEPTUAL});
+  png::append_transfer(bytes, display.transfer);
   png::append_bands(bytes, bands);
   return bytes;
 }
 
-void write_png(const Image& image, const std::filesystem::path& path, int threads) {
-  const std::vector<std::uint8_t> bytes = encode_png(image, threads);
+void write_png(const Image& image, const std::filesystem::path& path, int threads, const DisplayTransform& display) {
+  const std::vector<std::uint8_t> bytes = encode_png(image, threads, display);
   write_whole_file(path, bytes.data(), bytes.size());
 }
 

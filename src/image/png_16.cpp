@@ -140,13 +140,6 @@ png::Band make_band(const PlaneView& plane, std::span<const std::uint16_t> level
   return band;
 }
 
-void append_transfer(std::vector<std::uint8_t>& bytes, Transfer transfer) {
-  if (transfer == Transfer::Srgb) return png::append_chunk(bytes, "sRGB", {PNG_sRGB_INTENT_PERCEPTUAL});
-  std::vector<std::uint8_t> gamma;
-  png::append_32(gamma, 100'000);  // 1, in units of 1/100000
-  png::append_chunk(bytes, "gAMA", gamma);
-}
-
 }  // namespace
 
 std::vector<std::uint8_t> encode_png_16(const PlaneView& plane, Transfer transfer, int threads) {
@@ -154,7 +147,7 @@ std::vector<std::uint8_t> encode_png_16(const PlaneView& plane, Transfer transfe
                                  PNG_COLOR_TYPE_RGB_ALPHA};
   const std::span<const std::uint16_t> levels = values_of<std::uint16_t>("PNG", plane, {1, 2, 3, 4});
   std::vector<std::uint8_t> bytes = png::begin_file(plane.width, plane.height, 16, kColorTypes[plane.channels - 1]);
-  append_transfer(bytes, transfer);
+  png::append_transfer(bytes, transfer);
 
   const auto height = static_cast<std::size_t>(plane.height);
   if (levels.size_bytes() / height > kMostRowBytes) throw Error("PNG: the image is too wide");

@@ -29,6 +29,13 @@ void append_chunk(std::vector<std::uint8_t>& bytes, const char* type, const std:
   finish_chunk(bytes, begin);
 }
 
+void append_transfer(std::vector<std::uint8_t>& bytes, Transfer transfer) {
+  if (transfer == Transfer::Srgb) return append_chunk(bytes, "sRGB", {PNG_sRGB_INTENT_PERCEPTUAL});
+  std::vector<std::uint8_t> gamma;
+  append_32(gamma, 100'000);  // 1, in units of 1/100000
+  append_chunk(bytes, "gAMA", gamma);
+}
+
 std::vector<std::uint8_t> begin_file(int width, int height, int depth, int color_type) {
   std::vector<std::uint8_t> header;
   append_32(header, static_cast<std::uint32_t>(width));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <facemap/display.h>
+
 #include <cstdint>
 #include <vector>
 
@@ -18,6 +20,9 @@ void append_chunk(std::vector<std::uint8_t>& bytes, const char* type, const std:
 
 /// Signature and header: `depth` bits a channel, not interlaced.
 std::vector<std::uint8_t> begin_file(int width, int height, int depth, int color_type);
+
+/// Says how the levels stand for light.
+void append_transfer(std::vector<std::uint8_t>& bytes, Transfer transfer);
 
 /// Rows that are compressed as a part of the stream, in a chunk of their own; and what the stream's sum needs of them.
 struct Band {
