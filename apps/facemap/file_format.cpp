@@ -22,14 +22,20 @@ struct Picture {
 };
 
 Bytes png_of(const Picture& picture) {
-  if (picture.settings.bits != 16) return encode_png(picture.image, picture.threads);
-  const std::vector<std::uint16_t> levels = levels_16(picture.image, Transfer::Srgb, picture.threads);
-  return encode_png_16({picture.image.width, picture.image.height, 3, std::span(levels)}, Transfer::Srgb,
+  const DisplayTransform& display = picture.settings.display;
+  if (picture.settings.bits != 16) return encode_png(picture.image, picture.threads, display);
+  const std::vector<std::uint16_t> levels =
+      display.keeps_light()
+          ? levels_16(picture.image, display.transfer, picture.threads)
+          : levels_16(displayed(picture.image, display, picture.threads), display.transfer, picture.threads);
+  return encode_png_16({picture.image.width, picture.image.height, 3, std::span(levels)}, display.transfer,
                        picture.threads);
 }
 
 Bytes jpeg_of(const Picture& picture) {
-  const std::vector<std::uint8_t> levels = levels_8(picture.image);
+  const DisplayTransform& display = picture.settings.display;
+  const std::vector<std::uint8_t> levels =
+      display.keeps_light() ? levels_8(picture.image) : levels_8(displayed(picture.image, display, picture.threads));
   return encode_jpeg({picture.image.width, picture.image.height, 3, std::span(levels)}, picture.settings.quality);
 }
 
@@ -107,6 +113,9 @@ FileFormat format_of(const fs::path& file) {
 FileFormat picture_format(const fs::path& file, const FormatSettings& settings) {
   const FileFormat format = settings.format ? *settings.format : format_of(file);
   const std::vector<int>& known = row_of(format).bits;
+  if (format == FileFormat::Jpeg && settings.display.transfer != Transfer::Srgb) {
+    throw UsageError("--transfer linear: a JPEG file cannot say so; write .png");
+  }
   if (settings.bits == 0 || std::find(known.begin(), known.end(), settings.bits) != known.end()) return format;
   std::string list;
   for (const int bits : known) list += (list.empty() ? "" : " or ") + std::to_string(bits);

@@ -19,6 +19,7 @@ struct FormatSettings {
   std::optional<FileFormat> format;  ///< instead of what the name says
   int bits = 0;                      ///< a channel; 0: the format's own
   int quality = 90;                  ///< of JPEG, 1 to 100
+  DisplayTransform display;          ///< for formats of levels: PNG and JPEG
 };
 
 /// "png", "jpeg" and so on, in the order of FileFormat.

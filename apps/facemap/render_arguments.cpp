@@ -128,7 +128,7 @@ std::vector<Option> quality_options(RenderArguments& a) {
           "reaches into the neighbours",
           a.options.filter, {"box", "blackman-harris"}),
       {"--filter-width", "PIXELS", "1.5", "width of that window, at most 16",
-       into(a.options.filter_width, parse_number)},
+       into(a.options.filter_width, parse_filter_width)},
       one_of("--normals", "smooth", "smooth (where the file has normals or smoothing groups) or flat",
              a.options.normals, {"flat", "smooth"}),
       {"--terminator-fix",
@@ -162,6 +162,12 @@ std::vector<Option> output_options(RenderArguments& a) {
        {"8", "16", "32"}},
       {"--quality", "N", "90", "of JPEG, 1 to 100",
        into(a.format.quality, [](const std::string& text) { return parse_whole_number(text, 1, 100); })},
+      {"--exposure", "STOPS", "0", "PNG and JPEG: brighter by so many stops, each twice the light; -1 is half",
+       into(a.format.display.exposure, parse_exposure)},
+      one_of("--curve", "none", "PNG and JPEG: none, or filmic: highlights fade instead of being cut off",
+             a.format.display.curve, {"none", "filmic"}),
+      one_of("--transfer", "srgb", "PNG and JPEG: srgb, or linear: levels in proportion to light (PNG alone)",
+             a.format.display.transfer, {"srgb", "linear"}),
       {"--aov", "NAME[=FILE]", "",
        "writes a plane: depth (along the ray), z (along the sight), position, normal, face-normal, albedo, uv, id, "
        "object, material, lights (one bit a light, 1 is lit) or shadows (how many lights are hidden); to a .npy, .exr, "

@@ -127,6 +127,18 @@ std::vector<double> parse_numbers(const std::string& text) {
   return numbers;
 }
 
+double parse_exposure(const std::string& text) {
+  double stops = 0;
+  if (!read(text, stops) || !(stops >= -64) || !(stops <= 64)) refuse(text, "-64 to 64 stops");
+  return stops;
+}
+
+double parse_filter_width(const std::string& text) {
+  double pixels = 0;
+  if (!read(text, pixels) || !(pixels > 0) || !(pixels <= 16)) refuse(text, "a width above 0 to 16 pixels");
+  return pixels;
+}
+
 Vector parse_vector(const std::string& text) {
   const std::vector<float> numbers = read_numbers(text);
   if (numbers.size() != 3) refuse(text, "three numbers x,y,z");

@@ -16,6 +16,10 @@ namespace facemap::program {
 float parse_number(const std::string& text);
 int parse_whole_number(const std::string& text, int least, int most);
 
+/// Stops, -64 to 64, and the width of a filter in pixels, above 0 to 16.
+double parse_exposure(const std::string& text);
+double parse_filter_width(const std::string& text);
+
 /// Bytes: "1048576", "512M", "2G" (K, M, G and T are powers of 1024).
 std::size_t parse_memory(const std::string& text);
 
