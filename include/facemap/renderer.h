@@ -36,6 +36,8 @@ struct View {
 /// Some pixels of a picture, from its upper left corner.
 struct PixelBox {
   int x = 0, y = 0, width = 0, height = 0;
+
+  friend bool operator==(const PixelBox&, const PixelBox&) = default;
 };
 
 /// A view in which the scene's bounding sphere just fits the field angle (50 degrees) or the lens, from direction
@@ -83,9 +85,9 @@ class Renderer {
     int samples = 1;                              ///< a side of the grid in a pixel, 1..16
     std::optional<PixelBox> crop = std::nullopt;  ///< only these of the picture's pixels are made: the image is theirs
     Filter filter = Filter::Box;
-    double filter_width = 1.5;                    ///< of the Blackman-Harris window, in pixels, above 0 and at most 16
-    Normals normals = Normals::Smooth;            ///< smooth where the file gives normals or smoothing groups
-    bool shadow_terminator_fix = true;            ///< Hanika 2021; matters with smooth normals only
+    double filter_width = 1.5;          ///< of the Blackman-Harris window, in pixels, above 0 and at most 16
+    Normals normals = Normals::Smooth;  ///< smooth where the file gives normals or smoothing groups
+    bool shadow_terminator_fix = true;  ///< Hanika 2021; matters with smooth normals only
     Falloff falloff = Falloff::Constant;
     Color background{0, 0, 0};  ///< linear RGB
     bool materials = true;      ///< the model's materials, textures and vertex colours; else all is white

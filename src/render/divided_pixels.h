@@ -17,13 +17,14 @@ namespace facemap {
 /// Puts the samples of divided pixels together with the one sample of the others.
 class DividedPixels {
  public:
-  /// `pixels`: the picture of one sample a pixel, which becomes that of all samples. It must outlive this.
-  DividedPixels(const PixelFilter& filter, bool is_box, int width, std::span<Color> pixels);
+  /// `pixels`: the picture of one sample a pixel, which becomes that of all samples. All must outlive
+  /// this.
+  DividedPixels(const PixelFilter& filter, bool is_box, const EdgePixels& edges, std::span<Color> pixels);
 
   /// Takes the samples of the pixels of this round in the first `rows` rows of pixels of a band. `colors`: of samples
   /// that see a face.
-  void take(const SampleGrid& samples, int rows, const EdgePixels& edges, std::span<const FaceId> faces,
-            std::span<const Color> colors, const Color& background);
+  void take(const SampleGrid& samples, int rows, std::span<const FaceId> faces, std::span<const Color> colors,
+            const Color& background);
 
   /// Once all are taken.
   void finish(const Executor& executor);
@@ -35,7 +36,7 @@ class DividedPixels {
 
   const PixelFilter filter_;
   const bool is_box_;
-  const int width_;
+  const EdgePixels& edges_;
   const std::span<Color> pixels_;
   std::uint64_t count_ = 0;
   std::vector<std::uint32_t> numbers_;  // 0: not divided, n: its samples begin at (n - 1) * their number in a pixel

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "render/picture_frame.h"
+
 namespace facemap {
 namespace {
 
@@ -34,7 +36,11 @@ Color root_of(const Color& c) { return {std::sqrt(c.r), std::sqrt(c.g), std::sqr
 
 EdgePixels::EdgePixels(const Scene& scene, const View& view, const Renderer::Options& options,
                        const MaterialTable* materials, const Executor& executor)
-    : materials_(materials), executor_(executor), width_(options.width), height_(options.height) {
+    : materials_(materials),
+      executor_(executor),
+      width_(made_pixels(options).width),
+      height_(made_pixels(options).height),
+      top_(made_pixels(options).y) {
   for (int i = 0; i < executor.threads(); ++i) {
     joined_.emplace_back(scene, view.position, options.normals, materials);
   }
@@ -47,7 +53,7 @@ EdgePixels::EdgePixels(const Scene& scene, const View& view, const Renderer::Opt
 
 void EdgePixels::set_centres(const SampleGrid& centres, std::span<const FaceId> faces, const SampleLights& lights,
                              std::span<const Color> colors) {
-  const std::size_t first = index(0, centres.first_row);
+  const std::size_t first = first_pixel(centres);
   for (std::size_t i = 0; i < faces.size(); ++i) {
     centres_[first + i].face = faces[i];
     roots_[first + i] = root_of(colors[i]);
@@ -58,7 +64,7 @@ void EdgePixels::set_centres(const SampleGrid& centres, std::span<const FaceId> 
 }
 
 void EdgePixels::find_edges(const SampleGrid& samples, int rows, std::span<const FaceId> faces) {
-  const int top = samples.first_row / samples.per_side, all = samples.rows() / samples.per_side;
+  const int top = row_of(samples), all = samples.rows() / samples.per_side;
   executor_.for_each(static_cast<std::size_t>(all), [&](std::size_t row, int worker) {
     JoinedFaces& joined = joined_[static_cast<std::size_t>(worker)];
     const int y = top + static_cast<int>(row);
@@ -83,9 +89,8 @@ bool EdgePixels::holds_edge(const SampleGrid& samples, std::span<const FaceId> f
                             JoinedFaces& joined) const {
   const auto columns = static_cast<std::size_t>(samples.columns()), n = static_cast<std::size_t>(samples.per_side);
   const FaceId centre = centres_[index(x, y)].face;
-  const FaceId* const first =
-      &faces[(static_cast<std::size_t>(y) * n - static_cast<std::size_t>(samples.first_row)) * columns +
-             static_cast<std::size_t>(x) * n];
+  const auto row = static_cast<std::size_t>(y - row_of(samples));
+  const FaceId* const first = &faces[row * n * columns + static_cast<std::size_t>(x) * n];
   bool are_equal = true;
   for (std::size_t j = 0; j < n; ++j) {
     for (std::size_t i = 0; i < n; ++i) are_equal &= first[j * columns + i] == centre;
@@ -126,7 +131,7 @@ bool EdgePixels::differ(std::size_t pixel, std::size_t other) const {
 
 void EdgePixels::keep_divided(const SampleGrid& samples, int rows, std::span<FaceId> faces) const {
   const auto columns = static_cast<std::size_t>(samples.columns()), n = static_cast<std::size_t>(samples.per_side);
-  const std::size_t first = index(0, samples.first_row / samples.per_side);
+  const std::size_t first = first_pixel(samples);
   executor_.for_each(static_cast<std::size_t>(samples.rows()), [&](std::size_t row, int) {
     FaceId* const of_row = &faces[row * columns];
     const std::size_t y = row / n;
@@ -142,7 +147,7 @@ void EdgePixels::spread(const SampleGrid& samples, int rows, std::span<const Fac
                         const SampleLights& lights) {
   std::vector<std::uint32_t> numbers(faces.size());  // of samples in `lights`
   for (std::size_t i = 0; i < lights.samples.size(); ++i) numbers[lights.samples[i]] = static_cast<std::uint32_t>(i);
-  const int top = samples.first_row / samples.per_side;
+  const int top = row_of(samples);
   executor_.for_each(static_cast<std::size_t>(rows), [&](std::size_t row, int worker) {
     for (int x = 0; x < width_; ++x) {
       const int y = top + static_cast<int>(row);
@@ -160,7 +165,7 @@ void EdgePixels::spread_from(int x, int y, const SampleGrid& samples, std::span<
   for (int j = 0; j < n; ++j) {
     for (int i = 0; i < n; ++i) {
       const auto sample =
-          static_cast<std::size_t>(y * n + j - samples.first_row) * static_cast<std::size_t>(samples.columns()) +
+          static_cast<std::size_t>((y - row_of(samples)) * n + j) * static_cast<std::size_t>(samples.columns()) +
           static_cast<std::size_t>(x * n + i);
       if (faces[sample] == kNoFace) continue;
       const std::uint64_t key = key_of(lights.mask(numbers[sample]), lights.stride);
@@ -177,16 +182,16 @@ void EdgePixels::spread_from(int x, int y, const SampleGrid& samples, std::span<
   }
 }
 
-std::size_t EdgePixels::next_round() {
-  std::size_t count = 0;
+bool EdgePixels::next_round() {
+  bool any = false;
   for (std::size_t i = 0; i < states_.size(); ++i) {
     // A later band of this round may have divided it.
     const bool is_next = next_[i] != 0 && (states_[i] & kDone) == 0;
     states_[i] = static_cast<std::uint8_t>((states_[i] & (kEdge | kDone)) | (is_next ? kNow | kDone : 0));
-    count += is_next;
+    any = any || is_next;
     next_[i] = 0;
   }
-  return count;
+  return any;
 }
 
 bool EdgePixels::any_divided(int first, int end) const {

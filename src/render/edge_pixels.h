@@ -26,10 +26,18 @@ struct SampleLights {
 /// Wang 2022, sec. 2.3, Fig. 3: those that may hold an edge.
 ///
 /// First, with the faces that all samples see: a pixel whose samples see faces that are not joined, or whose neighbour
-/// in which that is not so either has other lights or, without textures, quite another colour. Then, round by round:
+/// in which that is not so either has other lights or, without textures, quite another colour. Then, in another round:
 /// a pixel beside one whose samples next to it have other lights.
 class EdgePixels {
  public:
+  /// After the first. More find little: they follow shadows thinner than a pixel, at the price of finding the camera's
+  /// faces again.
+  static constexpr int kRounds = 1;
+
+  /// Whether a pixel is divided depends on none farther away: on its neighbours' centres, and on those of the pixels
+  /// that a round found it by.
+  static constexpr int kReach = 1 + kRounds;
+
   /// All must outlive it; `materials` may be null.
   EdgePixels(const Scene& scene, const View& view, const Renderer::Options& options, const MaterialTable* materials,
              const Executor& executor);
@@ -48,14 +56,18 @@ class EdgePixels {
   /// Finds pixels for the next round beside those of this one. `faces` as keep_divided() left them.
   void spread(const SampleGrid& samples, int rows, std::span<const FaceId> faces, const SampleLights& lights);
 
-  /// Ends a round. Returns how many pixels the next one has.
-  std::size_t next_round();
+  /// Ends a round. False if the next one has no pixels.
+  bool next_round();
 
   /// Of this round.
   bool is_divided(std::size_t pixel) const { return (states_[pixel] & kNow) != 0; }
 
   /// Whether some row of pixels of [first, end) has one of this round.
   bool any_divided(int first, int end) const;
+
+  /// The first pixel of a band, whose samples are given.
+  std::size_t first_pixel(const SampleGrid& samples) const { return index(0, row_of(samples)); }
+  int width() const { return width_; }
 
  private:
   enum State : std::uint8_t {
@@ -74,13 +86,14 @@ class EdgePixels {
   void spread_from(int x, int y, const SampleGrid& samples, std::span<const FaceId> faces,
                    std::span<const std::uint32_t> numbers, const SampleLights& lights, JoinedFaces& joined);
 
+  int row_of(const SampleGrid& samples) const { return samples.first_row / samples.per_side - top_; }
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }
 
   const MaterialTable* materials_;
   const Executor& executor_;
-  const int width_, height_;
+  const int width_, height_, top_;   // of the pixels that are made, which are counted from the first of them
   std::vector<JoinedFaces> joined_;  // one a worker
   std::vector<Centre> centres_;
   std::vector<Color> roots_;  // square roots of the centres' colours

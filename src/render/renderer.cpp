@@ -11,6 +11,7 @@
 #include "math/elementary.h"
 #include "parallel/executor.h"
 #include "render/cost_model.h"
+#include "render/crop_margin.h"
 #include "render/light_sources.h"
 #include "render/painter.h"
 #include "render/picture_frame.h"
@@ -162,6 +163,7 @@ Image Renderer::make(const Request& request) {
   PictureWork work;
   work.faces = scene_->kept_faces().size();
   work.samples = samples_of(options);
+  const PixelBox made = made_pixels(options);
   work.lights = lights_.size();
   kept_->lists.resize(lights_.size());
   work.has_lists = std::find(kept_->lists.begin(), kept_->lists.end(), nullptr) == kept_->lists.end();
@@ -181,10 +183,14 @@ Image Renderer::make(const Request& request) {
   build_lists(request, by_lists);
   if (is_by_samples(options)) return paint_by_lists(request);
 
-  WholePicture picture(*scene_, view_, lights_, options, kept_->executor, kept_->transposed, kept_->lists, by_lists,
+  const PixelBox pixels = request.wants_colours ? pixels_about_crop(options) : made;
+  Options of_pixels = options;
+  of_pixels.crop = pixels;
+  WholePicture picture(*scene_, view_, lights_, of_pixels, kept_->executor, kept_->transposed, kept_->lists, by_lists,
                        choice.keeps_bounds, kept_->materials.get(), statistics_, request.report);
   const bool by_edges = options.sampling == Sampling::Edges;
   Image image = !request.wants_colours ? picture.look() : by_edges ? picture.paint_edges() : picture.paint();
+  if (!(pixels == made)) image = cut(image, pixels, made);
   if (!by_lists) {
     const PictureCost cost = estimate_cost(work);
     kept_->spent_in_vain += std::max(0.0, cost.transposed - cost.lists);

@@ -7,14 +7,6 @@
 #include "render/whole_picture.h"
 
 namespace facemap {
-namespace {
-
-// A round that divides fewer pixels, as a share of all, is not worth its price: the camera's faces are found anew for
-// it. It is the last one.
-constexpr double kLeastShare = 1.0 / 1024;
-
-}  // namespace
-
 // One ray a pixel, then the samples of the pixels that may hold an edge. The camera's faces are found for all samples:
 // that costs little beside light, and no edge between faces is missed.
 Image WholePicture::paint_edges() {
@@ -28,18 +20,16 @@ Image WholePicture::paint_edges() {
   paint_centres(edges, image);
 
   const bool is_box = options_.filter == Renderer::Filter::Box;
-  DividedPixels divided(PixelFilter(options_.filter, options_.filter_width, n), is_box, image.width, image.pixels);
-  bool is_first = true, is_last = false;
-  while (!is_last) {
+  DividedPixels divided(PixelFilter(options_.filter, options_.filter_width, n), is_box, edges, image.pixels);
+  for (int round = 0; round <= EdgePixels::kRounds && (round == 0 || edges.next_round()); ++round) {
+    const bool is_first = round == 0;
     for (SampleGrid grid : grids) {
-      const int first = grid.first_row / n, rows = grid.rows() / n;
+      const int first = static_cast<int>(first_row_of(grid)) / n, rows = grid.rows() / n;
       if (!is_first && !edges.any_divided(first, first + rows)) continue;
-      if (grid.first_row + grid.row_count < grid.rows_of_picture()) grid.row_count += n;
-      divide(grid, rows, is_first, edges, divided);
+      if (first + rows < image.height) grid.row_count += n;
+      divide(with_directions(grid), rows, is_first, edges, divided);
       bands_done_ = std::min(bands_done_ + 1, band_count_ - 1);
     }
-    is_first = false;
-    is_last = static_cast<double>(edges.next_round()) <= kLeastShare * static_cast<double>(pixels);
   }
   const Stopwatch filter_time;
   divided.finish(executor_);
@@ -55,13 +45,14 @@ SampleLights WholePicture::lights_of(const Seen& seen) const {
 }
 
 void WholePicture::paint_centres(EdgePixels& edges, Image& image) {
-  for (const SampleGrid& grid : bands(1)) {
+  for (const SampleGrid& band : bands(1)) {
+    const SampleGrid grid = with_directions(band);
     Seen seen = see(grid);
     const Stopwatch shade_time;
     colors_.assign(grid.count(), options_.background);
     shade_points(scene_, grid, seen.points, lights_, options_, executor_, colors_, materials_);
     std::copy(colors_.begin(), colors_.end(),
-              image.pixels.begin() + static_cast<std::ptrdiff_t>(grid.first_row) * image.width);
+              image.pixels.begin() + static_cast<std::ptrdiff_t>(first_row_of(grid)) * image.width);
     edges.set_centres(grid, seen.faces, lights_of(seen), colors_);
     put_planes(std::move(seen), image);
     statistics_.shade_ms += shade_time.milliseconds();
@@ -79,7 +70,7 @@ void WholePicture::divide(const SampleGrid& grid, int rows, bool is_first, EdgeP
   colors_.resize(std::max(colors_.size(), grid.count()));
   shade_points(scene_, grid, seen.points, lights_, options_, executor_, colors_, materials_);
   edges.spread(grid, rows, seen.faces, lights_of(seen));
-  divided.take(grid, rows, edges, seen.faces, colors_, options_.background);
+  divided.take(grid, rows, seen.faces, colors_, options_.background);
   statistics_.shade_ms += shade_time.milliseconds();
 }
 

@@ -143,6 +143,38 @@ TEST(EdgeSampling, WhenEveryPixelIsDividedItIsTheGrid) {
   EXPECT_TRUE(some.pixels == all.pixels);
 }
 
+TEST(EdgeSampling, CropsAreWhatTheWholePictureHasThere) {
+  const Scene scene(ball_on_floor(12, true));
+  const View view = make_up_view(scene);
+  const std::vector<Light> lights = make_up_lights(scene);
+  for (const Filter filter : {Filter::Box, Filter::BlackmanHarris}) {
+    for (const auto sampling : {Renderer::Sampling::Edges, Renderer::Sampling::Grid}) {
+      Renderer::Options options = edges(80, 3);
+      options.sampling = sampling;
+      options.filter = filter;
+      options.filter_width = 3.5;
+      options.planes = {Plane::Id, Plane::Lights};
+      const Image whole = Renderer(scene, view, lights, options).render();
+      for (const PixelBox& box : {PixelBox{0, 0, 17, 30}, PixelBox{31, 22, 20, 33}, PixelBox{60, 79, 20, 1}}) {
+        options.crop = box;
+        const Image part = Renderer(scene, view, lights, options).render();
+        ASSERT_EQ(part.width, box.width);
+        ASSERT_EQ(part.height, box.height);
+        int different = 0;
+        for (int y = 0; y < box.height; ++y) {
+          for (int x = 0; x < box.width; ++x) {
+            const auto i = static_cast<std::size_t>(y * box.width + x);
+            const auto j = static_cast<std::size_t>((box.y + y) * whole.width + box.x + x);
+            different += part.pixels[i] != whole.pixels[j] || part.ids[i] != whole.ids[j] ||
+                         part.lights[i] != whole.lights[j];
+          }
+        }
+        EXPECT_EQ(different, 0) << box.x;
+      }
+    }
+  }
+}
+
 TEST(PictureFilter, ABackgroundStaysAsItIs) {
   const Scene scene(ball_on_floor(4, false));
   View away;
