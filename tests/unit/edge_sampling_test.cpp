@@ -165,8 +165,8 @@ TEST(EdgeSampling, CropsAreWhatTheWholePictureHasThere) {
           for (int x = 0; x < box.width; ++x) {
             const auto i = static_cast<std::size_t>(y * box.width + x);
             const auto j = static_cast<std::size_t>((box.y + y) * whole.width + box.x + x);
-            different += part.pixels[i] != whole.pixels[j] || part.ids[i] != whole.ids[j] ||
-                         part.lights[i] != whole.lights[j];
+            different +=
+                part.pixels[i] != whole.pixels[j] || part.ids[i] != whole.ids[j] || part.lights[i] != whole.lights[j];
           }
         }
         EXPECT_EQ(different, 0) << box.x;
