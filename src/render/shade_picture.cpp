@@ -131,7 +131,7 @@ void shade_points(const Scene& scene, const SampleGrid& grid, const SeenPoints& 
 std::vector<std::uint8_t> lights_that_add(const Scene& scene, const SampleGrid& grid, const SeenPoints& seen,
                                           const std::vector<Light>& lights, const Renderer::Options& options,
                                           const Executor& executor) {
-  const std::vector<simd::LightSource> sources = sources_of(lights);
+  const std::vector<simd::LightSource> sources = light_sources(lights, options.falloff);
   std::vector<std::uint8_t> masks = seen.masks;
   for_each_chunk(scene, grid, seen.points, options.normals == Renderer::Normals::Smooth, nullptr, executor,
                  [&](ShadeBatch& batch, std::size_t first, std::size_t end, std::size_t) {
