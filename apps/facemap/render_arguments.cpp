@@ -1,8 +1,6 @@
 #include "render_arguments.h"
 
-#include <algorithm>
 #include <optional>
-#include <set>
 #include <string>
 
 #include "light_flags.h"
@@ -15,30 +13,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMaxFrames = 100'000;
-constexpr int kBits[] = {8, 16, 32};  ///< of a channel
-
-std::vector<std::string> plane_names() {
-  std::vector<std::string> names;
-  for (const Plane plane : all_planes()) names.emplace_back(name_of(plane));
-  return names;
-}
-
-bool has_file(const FrameFiles& files, Plane plane) {
-  return std::any_of(files.planes.begin(), files.planes.end(), [&](const PlaneFile& f) { return f.plane == plane; });
-}
-
-/// NAME=FILE, or NAME alone: a layer of the picture.
-void add_plane(RenderArguments& arguments, const std::string& text) {
-  const std::size_t equals = std::min(text.find('='), text.size());
-  const std::string name = text.substr(0, equals);
-  const Plane plane = all_planes()[static_cast<std::size_t>(parse_choice(name, plane_names()))];
-  if (equals + 1 == text.size()) throw UsageError("'" + text + "' names no file");
-  if (equals == text.size() ? arguments.layers.has(plane) : has_file(arguments.files, plane)) {
-    throw UsageError(name + " is given more than once");
-  }
-  if (equals == text.size()) return arguments.layers.add(plane);
-  arguments.files.planes.push_back({plane, text.substr(equals + 1)});
-}
 
 template <typename Value, typename Parse>
 std::function<void(const std::string&)> append_to(std::vector<Value>& values, Parse parse) {
@@ -144,38 +118,15 @@ std::vector<Option> quality_options(RenderArguments& a) {
   };
 }
 
-std::vector<Option> output_options(RenderArguments& a) {
+/// From light to the levels of a picture.
+std::vector<Option> display_options(DisplayTransform& display) {
   return {
-      {"--format", "FORMAT", "by name",
-       "the picture's format, whatever its file is called; of -o - it is png if not said",
-       [&a](const std::string& text) { a.format.format = static_cast<FileFormat>(parse_choice(text, format_names())); },
-       false, format_names()},
-      {"--bits",
-       "N",
-       "",
-       "bits of a colour: PNG 8 (if not said) or 16, EXR 16 (half, if not said) or 32 (float)",
-       into(a.format.bits,
-            [](const std::string& text) {
-              return kBits[parse_choice(text, {"8", "16", "32"})];
-            }),
-       false,
-       {"8", "16", "32"}},
-      {"--quality", "N", "90", "of JPEG, 1 to 100",
-       into(a.format.quality, [](const std::string& text) { return parse_whole_number(text, 1, 100); })},
       {"--exposure", "STOPS", "0", "PNG and JPEG: brighter by so many stops, each twice the light; -1 is half",
-       into(a.format.display.exposure, parse_exposure)},
+       into(display.exposure, parse_exposure)},
       one_of("--curve", "none", "PNG and JPEG: none, or filmic: highlights fade instead of being cut off",
-             a.format.display.curve, {"none", "filmic"}),
+             display.curve, {"none", "filmic"}),
       one_of("--transfer", "srgb", "PNG and JPEG: srgb, or linear: levels in proportion to light (PNG alone)",
-             a.format.display.transfer, {"srgb", "linear"}),
-      {"--aov", "NAME[=FILE]", "",
-       "writes a plane: depth (along the ray), z (along the sight), position, normal, face-normal, albedo, uv, id, "
-       "object, material, lights (one bit a light, 1 is lit) or shadows (how many lights are hidden); to a .npy, .exr, "
-       ".pfm, or, for the eye, .png or .jpg; without a file it is a layer of an EXR picture; once a plane; {n} and "
-       "{model} as in -o",
-       [&a](const std::string& text) { add_plane(a, text); }, true},
-      {"--frames", "A..B", "all", "of several pictures only these: numbers from 0, both ends count; 7 or 0-9 will do",
-       into(a.frames.range, parse_frame_range)},
+             display.transfer, {"srgb", "linear"}),
   };
 }
 
@@ -213,9 +164,8 @@ std::vector<Option> render_options(RenderArguments& a) {
       {"MODEL", "", "", "the model: an OBJ, glTF, PLY or STL file", into(a.model, parse_path)},
       {"-o,--output", "FILE", "",
        "the picture: .png, .jpg, .exr, .pfm or .npy; - writes it to standard output; {model} in the name stands for "
-       "the "
-       "model's name, {n} for the picture's number from 0, {n:04} for the same with four digits",
-       into(a.files.picture, parse_path)},
+       "the model's name, {n} for the picture's number from 0, {n:04} for the same with four digits",
+       into(a.output.files.picture, parse_path)},
       {"--size", "WxH", "1024x1024", "width and height in pixels", into(a.wanted_size, parse_size)},
   };
   append(options, part_options(a.part));
@@ -223,7 +173,8 @@ std::vector<Option> render_options(RenderArguments& a) {
   append(options, lens_options(a.frames.lens));
   append(options, light_options(a));
   append(options, quality_options(a));
-  append(options, output_options(a));
+  append(options, display_options(a.output.format.display));
+  append(options, output_options(a.output, a.frames.range));
   append(options, work_options(a));
   append(options, {
                       {"--stats",
@@ -241,69 +192,13 @@ std::vector<Option> render_options(RenderArguments& a) {
   return options;
 }
 
-namespace {
-
-/// What the flags say of the files must make sense.
-void check_formats(const RenderArguments& arguments) {
-  const fs::path& picture = arguments.files.picture;
-  const FileFormat format = picture_format(picture, arguments.format);
-  for (const PlaneFile& plane : arguments.files.planes) {
-    if (is_standard_output(plane.file)) throw UsageError("--aov: standard output takes the picture alone");
-    plane_format(plane.file, plane.plane);
-  }
-  for (const Plane plane : all_planes()) {
-    if (!arguments.layers.has(plane) || format == FileFormat::Exr) continue;
-    const std::string name = name_of(plane);
-    throw UsageError("--aov " + name + ": only an EXR picture has layers; give it a file: " + name + "=FILE");
-  }
-  if (is_standard_output(picture) && arguments.stats != StatsFormat::None) {
-    throw UsageError("-o - and --stats would both write to standard output");
-  }
-}
-
-/// Files by the names that the file system has for them.
-class KnownFiles {
- public:
-  void add(const fs::path& file) {
-    if (is_standard_output(file)) return;
-    std::error_code failed;
-    const fs::path name = fs::weakly_canonical(fs::absolute(file), failed);
-    if (!names_.insert(failed ? file.lexically_normal() : name).second) {
-      throw UsageError(file.string() + ": two outputs name this file");
-    }
-  }
-
- private:
-  std::set<fs::path> names_;
-};
-
-}  // namespace
-
 std::vector<FrameFiles> check_files(const RenderArguments& arguments) {
   check_picture(arguments);
   if (arguments.model.empty()) throw UsageError("no model is given");
-  if (arguments.files.picture.empty()) check_picture_output(arguments.files.picture, arguments.model);
-  const FrameRange range = arguments.frames.selected();
-  const auto names = [&](const fs::path& pattern) {
-    return frame_files(pattern, arguments.model, arguments.frames.count(), range);
-  };
-  std::vector<FrameFiles> frames;
-  KnownFiles known;
-  for (const fs::path& picture : names(arguments.files.picture)) {
-    frames.push_back({picture, {}});
-    check_picture_output(picture, arguments.model);
-    known.add(picture);
+  if (is_standard_output(arguments.output.files.picture) && arguments.stats != StatsFormat::None) {
+    throw UsageError("-o - and --stats would both write to standard output");
   }
-  for (const auto& [plane, pattern] : arguments.files.planes) {
-    const std::vector<fs::path> files = names(pattern);
-    for (std::size_t i = 0; i < files.size(); ++i) {
-      check_output(files[i], arguments.model);
-      known.add(files[i]);
-      frames[i].planes.push_back({plane, files[i]});
-    }
-  }
-  check_formats(arguments);
-  return frames;
+  return check_output_files(arguments.output, arguments.model, arguments.frames);
 }
 
 Renderer::Options renderer_options(const RenderArguments& arguments) {
@@ -313,8 +208,7 @@ Renderer::Options renderer_options(const RenderArguments& arguments) {
   options.crop = arguments.part.pixels(arguments.size());
   options.sampling = arguments.samples.sampling;
   options.samples = arguments.samples.side;
-  options.planes = arguments.layers;
-  for (const PlaneFile& plane : arguments.files.planes) options.planes.add(plane.plane);
+  options.planes = arguments.output.planes();
   return options;
 }
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "frame_writer.h"
 #include "frames.h"
 #include "options.h"
+#include "output_flags.h"
 #include "picture_part.h"
 #include "text_values.h"
 
@@ -19,9 +19,7 @@ enum class StatsFormat { None, Json, Text };
 /// What facemap render is told.
 struct RenderArguments {
   std::filesystem::path model;
-  FrameFiles files;  ///< names that may hold {n} and {model}
-  FormatSettings format;
-  PlaneSet layers;  ///< planes that the picture's file holds itself
+  WantedOutput output;
   std::optional<Size> wanted_size;
   WantedPart part;
   WantedFrames frames;

@@ -84,7 +84,7 @@ void render(const RenderArguments& arguments) {
   const std::vector<Light> lights = lights_of(arguments, scene);
   say_what_was_made_up(arguments, all_views, range, lights);
   Renderer renderer(scene, views[0], lights, renderer_options(arguments));
-  FrameWriter writer(arguments.format, arguments.layers);
+  FrameWriter writer(arguments.output.format, arguments.output.layers);
   render_frames(renderer, views, files, writer, arguments.options.threads, !arguments.quiet, stats);
 
   stats.total_ms = total.lap();
