@@ -3,9 +3,12 @@
 #include <facemap/face_map.h>
 #include <facemap/surface_point.h>
 
+#include <cstdint>
 #include <limits>
 
 namespace facemap {
+
+class NearestHit;
 
 /// The FaceMap that keeps the faces closest to itself and answers which is nearest along a ray.
 /// Wang 2022, sec. 4.3: the Camera class.
@@ -21,6 +24,8 @@ class Camera : public FaceMap {
     int height = 1024;                         ///< pixels
     Builder builder = Builder::Cover;
     bool keep_all = false;  ///< keep faces behind full covers too (count_hits needs it)
+    bool cut_outs = true;   ///< holes that materials make are holes; else every face is solid
+    std::uint64_t max_texture_pixels = Scene::kMostTexturePixels;  ///< images of more make no holes
   };
 
   /// Throws Error for options out of range.
@@ -40,13 +45,20 @@ class Camera : public FaceMap {
     explicit operator bool() const noexcept { return face != kNoFace; }
   };
 
-  /// The nearest face along `direction` (any length); none for the zero vector, for what is not finite and outside
-  /// the raster. Edges and vertices belong to their faces. Of faces at exactly the same distance the one turned
-  /// towards the camera wins, then the lower id. Exact with Builder::Cover.
+  /// The nearest face along `direction` (any length) that is there where it is met; none for the zero vector, for what
+  /// is not finite and outside the raster. Edges and vertices belong to their faces. Of faces at exactly the same
+  /// distance the one turned towards the camera wins, then the lower id. Exact with Builder::Cover.
   Hit nearest(const Vector& direction, Counters* counters = nullptr) const;
 
   /// The true point that `hit = nearest(direction)` sees. `hit` must hold a face.
   SurfacePoint surface_point(const Vector& direction, const Hit& hit) const;
+
+ protected:
+  Camera(const MapFaces& faces, const SpaceVector& frame, const Options& options);
+
+  /// Tells `best` of the faces of the map that the ray meets, but for some that are behind what it knows already.
+  /// `texel` must be texel_of(direction).
+  void meet_faces(const Texel& texel, const Vector& direction, NearestHit& best, Counters* counters) const;
 };
 
 }  // namespace facemap

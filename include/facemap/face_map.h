@@ -14,7 +14,9 @@
 
 namespace facemap {
 
+class CutOuts;
 class FacePlanesTable;
+struct MapFaces;
 class Texels;
 
 /// How the texels of a map get their faces.
@@ -45,7 +47,11 @@ class FaceMap : public SpaceVector {
 
   /// The candidates of a texel, nearest bound first: with Builder::Cover a superset of the faces that any
   /// direction in the texel meets, ended behind a face that covers the texel unless the map keeps all. No bounds check.
+  /// Without those that materials cut holes into (docs/materials.md), which never hide what is behind them.
   std::span<const std::uint32_t> faces_at(int texel_x, int texel_y) const;
+
+  /// The others, all of them: whether they are there is asked where a ray meets them.
+  std::span<const std::uint32_t> cut_outs_at(int texel_x, int texel_y) const;
 
   /// The texel that holds a world direction; none outside the raster, for the zero vector and for what is not finite.
   /// Its length may be anything from 1e-150 to 1e150: squares must be doubles.
@@ -54,9 +60,9 @@ class FaceMap : public SpaceVector {
   };
   std::optional<Texel> texel_of(const DVector& direction) const;
 
-  /// How many faces the ray from the origin along `direction` meets, edges and vertices included; exact if the
-  /// map keeps all (Options::keep_all) and is built by Cover. 0 outside the raster and for a direction that is zero or
-  /// not finite.
+  /// How many faces the ray from the origin along `direction` meets where they are there, edges and vertices included;
+  /// exact if the map keeps all (Options::keep_all) and is built by Cover. 0 outside the raster and for a direction
+  /// that is zero or not finite.
   int count_hits(const Vector& direction, Counters* counters = nullptr) const;
 
   /// Bytes of lists and planes.
@@ -66,17 +72,27 @@ class FaceMap : public SpaceVector {
   std::size_t entry_count() const noexcept;
 
  protected:
-  FaceMap(const Scene& scene, const SpaceVector& frame, const Projection& projection, Builder builder, bool keep_all);
+  FaceMap(const MapFaces& faces, const SpaceVector& frame, const Projection& projection, Builder builder,
+          bool keep_all);
 
   const FacePlanesTable& planes() const noexcept { return *planes_; }
   const Texels& texels() const noexcept { return *texels_; }
+  const Scene& all_faces() const noexcept { return *all_; }      ///< those in the map
+  const Scene& solid_faces() const noexcept { return *solid_; }  ///< those without holes, in texels()
+
+  /// Whether some faces of the map have holes: those in cut_texels().
+  bool has_cut_outs() const noexcept { return cut_texels_ != nullptr; }
+  const CutOuts& cut_outs() const noexcept { return *cut_outs_; }
+  const Texels& cut_texels() const noexcept { return *cut_texels_; }
 
  private:
-  const Scene* scene_;
+  const Scene *scene_, *all_, *solid_;
+  std::shared_ptr<const CutOuts> cut_outs_;  // null: all faces are solid
   Projection projection_;
   Builder builder_;
   std::unique_ptr<FacePlanesTable> planes_;
   std::unique_ptr<Texels> texels_;
+  std::unique_ptr<Texels> cut_texels_;  // null: there are none
 };
 
 }  // namespace facemap

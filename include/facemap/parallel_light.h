@@ -35,9 +35,14 @@ class ParallelLight : public ParallelMap {
   bool is_blocked(const SurfacePoint& point, Counters* counters = nullptr) const;
 
  private:
+  // Of faces with holes or of the others.
   template <class Point>
-  bool is_blocked(const DVector& offset, double relative_error, const Point& point, std::uint32_t skip, float tolerance,
-                  Counters* counters) const;
+  bool is_blocked_by(bool by_cut_outs, const Point& point, const DVector& place, std::uint32_t skip,
+                     Counters* counters) const;
+
+  // Of all; `place` is the point in double.
+  template <class Point>
+  bool is_blocked(const Point& point, const DVector& place, std::uint32_t skip, Counters* counters) const;
 };
 
 }  // namespace facemap

@@ -4,6 +4,8 @@
 #include <facemap/face_map.h>
 #include <facemap/surface_point.h>
 
+#include <cstdint>
+
 namespace facemap {
 
 /// The FaceMap that keeps the distribution of all faces about a light and answers whether a point is lit.
@@ -15,6 +17,8 @@ class PointLight : public FaceMap {
     int texels = 0;          ///< width and height of the map; 0: by the number of faces and their outline
     double field_angle = 0;  ///< radians; 0: fitted to the scene, 360 degrees for a light among the faces
     bool keep_all = false;   ///< keep faces behind full covers too (count_hits needs it)
+    bool cut_outs = true;    ///< holes that materials make let light through; else every face is solid
+    std::uint64_t max_texture_pixels = Scene::kMostTexturePixels;  ///< images of more make no holes
   };
 
   /// Throws Error if the position is not finite or an option is out of range, a field angle too narrow for
@@ -55,8 +59,11 @@ class PointLight : public FaceMap {
   /// Error if the ray lies along the plane of its face or is not finite: there is no point.
   bool is_blocked(const SurfacePoint& point, Counters* counters = nullptr) const;
 
+ protected:
+  PointLight(const MapFaces& faces, const Vector& position, const Options& options);
+
  private:
-  PointLight(const Scene& scene, const SpaceVector& frame, const Options& options);
+  PointLight(const MapFaces& faces, const SpaceVector& frame, const Options& options);
 
   // A chunk of get_lighten_up's points.
   void ask_together(std::span<const Vector> points, std::uint8_t* lit, Counters* counters) const;
@@ -65,9 +72,15 @@ class PointLight : public FaceMap {
   bool is_blocked_for_sure(std::span<const std::uint32_t> ids, bool is_cut, std::uint32_t skip,
                            const Predicate& blocks) const;
 
+  // Faces without holes.
   template <class Point>
   bool is_blocked(const DVector& offset, const Point& point, std::uint32_t skip, float tolerance,
                   Counters* counters) const;
+
+  // Faces with holes; `place` is the point in double.
+  template <class Point>
+  bool is_blocked_by_cut_outs(const DVector& offset, const Point& point, const DVector& place, std::uint32_t skip,
+                              Counters* counters) const;
 };
 
 }  // namespace facemap

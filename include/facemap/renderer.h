@@ -146,8 +146,10 @@ class Renderer {
   Image make(const Request& request);
   Image paint_by_lists(const Request& request);
   void build_lists(const Request& request, bool of_all);
+  void find_cut_outs();
   void load_materials();
   void fill_planes(Image& image);
+  void warn_once(const std::string& warning);
 
   const Scene* scene_;
   View view_;

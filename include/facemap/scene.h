@@ -7,11 +7,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace facemap {
 
+class CutOuts;
 class Executor;
 struct SmoothingRun;
 
@@ -29,7 +31,7 @@ struct ObjectRun {
 };
 
 /// The geometry that maps are made of: a mesh, and which of its faces count. Immutable; maps keep a
-/// reference, so a scene must outlive them. Threads may read it together.
+/// reference, so a scene must outlive them. Threads may read it together. Copies share what they hold.
 class Scene {
  public:
   /// Takes a mesh. Throws Error if a position is not finite, an index is out of range or no face is given. `threads`
@@ -45,19 +47,21 @@ class Scene {
   /// LoadError.
   static Scene load(const std::filesystem::path& path, int threads = 0);
 
-  const Mesh& mesh() const noexcept { return mesh_; }
-  const std::vector<Material>& materials() const noexcept { return materials_; }
-  const std::vector<TextureImage>& images() const noexcept { return images_; }   ///< that materials name, not decoded
-  const std::vector<std::string>& objects() const noexcept { return objects_; }  ///< names of the model's objects
+  const Mesh& mesh() const noexcept { return shared_->mesh; }
+  const std::vector<Material>& materials() const noexcept { return shared_->materials; }
+  const std::vector<TextureImage>& images() const noexcept { return shared_->images; }  ///< of materials, not decoded
+  const std::vector<std::string>& objects() const noexcept {
+    return shared_->objects;
+  }  ///< names of the model's objects
 
   /// The index into objects() of what `face` is part of; kNoIndex: nothing.
   std::uint32_t object_of(std::size_t face) const;
 
-  const OddFaces& odd_faces() const noexcept { return odd_; }
-  const OBJ::Report& report() const noexcept { return report_; }
+  const OddFaces& odd_faces() const noexcept { return shared_->odd; }
+  const OBJ::Report& report() const noexcept { return shared_->report; }
 
   /// Number of faces, the odd ones included.
-  std::size_t face_count() const noexcept { return mesh_.face_count(); }
+  std::size_t face_count() const noexcept { return mesh().face_count(); }
 
   /// Whether `face` takes part in maps.
   bool is_kept(std::size_t face) const { return kept_[face] != 0; }
@@ -66,7 +70,7 @@ class Scene {
   const std::vector<std::uint32_t>& kept_faces() const noexcept { return kept_faces_; }
 
   /// For each position, the index of the first position of the same value (-0 is 0); empty if no two are the same.
-  const std::vector<std::uint32_t>& welded() const noexcept { return welded_; }
+  const std::vector<std::uint32_t>& welded() const noexcept { return shared_->welded; }
 
   /// The axis-parallel box of the vertices of kept faces (of all positions if no face is kept).
   const Vector& lower() const noexcept { return lower_; }
@@ -76,7 +80,33 @@ class Scene {
   DVector centre() const noexcept { return centre_; }
   double bounding_radius() const noexcept { return bounding_radius_; }
 
+  /// Images of more pixels are not decoded, unless it is asked for.
+  static constexpr std::uint64_t kMostTexturePixels = std::uint64_t{1} << 26;
+
+  /// What materials take away from faces: holes, and faces that are not to be seen at all (docs/materials.md). Null if
+  /// nothing. Decodes the images that say so, the first time for each limit of their pixels; those that cannot be
+  /// decoded count as none. `threads` may work on it. Maps and pictures ask for it by themselves.
+  std::shared_ptr<const CutOuts> cut_outs(std::uint64_t max_texture_pixels = kMostTexturePixels, int threads = 0) const;
+
  private:
+  friend class CutOuts;
+
+  /// What does not depend on which faces count.
+  struct Shared {
+    Mesh mesh;
+    std::vector<Material> materials;
+    std::vector<TextureImage> images;
+    std::vector<std::string> objects;
+    std::vector<ObjectRun> object_runs;
+    OBJ::Report report;
+    OddFaces odd;
+    std::vector<std::uint32_t> welded;
+  };
+  struct KnownCutOuts;
+
+  /// The same mesh with other faces kept, all of them without holes.
+  Scene(const Scene& whole, std::vector<std::uint8_t> kept);
+
   /// The same, and adds normals to the mesh where smoothing groups ask for them.
   Scene(Mesh mesh, std::vector<Material> materials, std::vector<TextureImage> images,
         const std::vector<SmoothingRun>& smoothing, int threads);
@@ -85,14 +115,8 @@ class Scene {
   void list_kept_faces(const Executor& executor);
   void find_bounds(const Executor& executor);
 
-  Mesh mesh_;
-  std::vector<Material> materials_;
-  std::vector<TextureImage> images_;
-  std::vector<std::string> objects_;
-  std::vector<ObjectRun> object_runs_;
-  OBJ::Report report_;
-  OddFaces odd_;
-  std::vector<std::uint32_t> welded_;
+  std::shared_ptr<Shared> shared_;                // not changed once the scene is made
+  std::shared_ptr<KnownCutOuts> known_cut_outs_;  // null: there are none
   std::vector<std::uint8_t> kept_;
   std::vector<std::uint32_t> kept_faces_;
   Vector lower_{0}, upper_{0};

@@ -6,33 +6,50 @@
 #include "map/cover.h"
 #include "map/face_planes.h"
 #include "map/fill.h"
+#include "map/map_faces.h"
 #include "map/texels.h"
 #include "simd/floating_point_mode.h"
 
 namespace facemap {
 namespace {
 
+std::size_t texel_count(const Projection& projection) {
+  return static_cast<std::size_t>(projection.width()) * static_cast<std::size_t>(projection.height());
+}
+
 Texels build_texels(const Scene& scene, const SpaceVector& frame, const Projection& projection,
                     const FacePlanesTable& planes, Builder builder, bool keep_all) {
-  const auto texel_count = static_cast<std::size_t>(projection.width()) * static_cast<std::size_t>(projection.height());
   if (builder == Builder::Fill) {
     std::vector<TexelEntry> entries;
     fill_faces(scene, frame, projection, entries);
     for (TexelEntry& entry : entries) entry.nearest = planes.nearest(entry.face);
-    return Texels(texel_count, entries, {});
+    return Texels(texel_count(projection), entries, {});
   }
   const Coverage coverage = cover_faces(scene, frame, projection, planes, keep_all);
-  return Texels(texel_count, coverage.entries, coverage.cuts);
+  return Texels(texel_count(projection), coverage.entries, coverage.cuts);
 }
 
 }  // namespace
 
-FaceMap::FaceMap(const Scene& scene, const SpaceVector& frame, const Projection& projection, Builder builder,
+FaceMap::FaceMap(const MapFaces& faces, const SpaceVector& frame, const Projection& projection, Builder builder,
                  bool keep_all)
-    : SpaceVector(frame), scene_(&scene), projection_(projection), builder_(builder) {
+    : SpaceVector(frame),
+      scene_(&faces.scene),
+      all_(&faces.all()),
+      solid_(&faces.solid()),
+      cut_outs_(faces.cut_outs),
+      projection_(projection),
+      builder_(builder) {
   const FloatingPointMode mode;
-  planes_ = std::make_unique<FacePlanesTable>(scene, position());
-  texels_ = std::make_unique<Texels>(build_texels(scene, *this, projection, *planes_, builder, keep_all));
+  planes_ = std::make_unique<FacePlanesTable>(*all_, position());
+  const auto build = [&](const Scene& scene, bool keeps_all) {
+    return std::make_unique<Texels>(build_texels(scene, *this, projection, *planes_, builder, keeps_all));
+  };
+  texels_ = faces.is_cut_alone ? std::make_unique<Texels>(texel_count(projection), std::span<const TexelEntry>(),
+                                                          std::span<const float>())
+                               : build(*solid_, keep_all);
+  // Nothing is hidden for certain behind a face with holes.
+  if (faces.has_cut_outs()) cut_texels_ = build(cut_outs_->cut(), true);
 }
 
 FaceMap::~FaceMap() = default;
@@ -44,6 +61,12 @@ int FaceMap::side(FaceId face) const { return planes_->side(static_cast<std::uin
 std::span<const std::uint32_t> FaceMap::faces_at(int texel_x, int texel_y) const {
   return texels_->faces_at(static_cast<std::size_t>(texel_y) * static_cast<std::size_t>(width()) +
                            static_cast<std::size_t>(texel_x));
+}
+
+std::span<const std::uint32_t> FaceMap::cut_outs_at(int texel_x, int texel_y) const {
+  if (!has_cut_outs()) return {};
+  return cut_texels_->faces_at(static_cast<std::size_t>(texel_y) * static_cast<std::size_t>(width()) +
+                               static_cast<std::size_t>(texel_x));
 }
 
 std::optional<FaceMap::Texel> FaceMap::texel_of(const DVector& direction) const {
@@ -60,15 +83,23 @@ int FaceMap::count_hits(const Vector& direction, Counters* counters) const {
   const FloatingPointMode mode;
   const std::optional<Texel> texel = texel_of(DVector(direction));
   if (!texel) return 0;
+  const auto is_met = [&](std::uint32_t id) {
+    return covers(triangle_of(*scene_, id), planes_->side(id), position(), direction, counters).hit;
+  };
   int hits = 0;
-  for (const std::uint32_t id : faces_at(texel->x, texel->y)) {
-    if (covers(triangle_of(*scene_, id), planes_->side(id), position(), direction, counters).hit) ++hits;
+  for (const std::uint32_t id : faces_at(texel->x, texel->y)) hits += is_met(id);
+  for (const std::uint32_t id : cut_outs_at(texel->x, texel->y)) {
+    hits += is_met(id) && cut_outs_->is_there(id, DVector(position()), DVector(direction));
   }
   return hits;
 }
 
-std::size_t FaceMap::memory_bytes() const noexcept { return planes_->memory_bytes() + texels_->memory_bytes(); }
+std::size_t FaceMap::memory_bytes() const noexcept {
+  return planes_->memory_bytes() + texels_->memory_bytes() + (has_cut_outs() ? cut_texels_->memory_bytes() : 0);
+}
 
-std::size_t FaceMap::entry_count() const noexcept { return texels_->entry_count(); }
+std::size_t FaceMap::entry_count() const noexcept {
+  return texels_->entry_count() + (has_cut_outs() ? cut_texels_->entry_count() : 0);
+}
 
 }  // namespace facemap

@@ -5,6 +5,7 @@
 #include <facemap/point_light.h>
 
 #include <memory>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -13,8 +14,12 @@ namespace facemap {
 /// The lists of one light, about its position or along its direction: who asks need not know which.
 class LightLists {
  public:
-  /// Directional lights have the exact builder whatever `builder` says. Throws Error as the maps do.
-  LightLists(const Scene& scene, const Light& light, Builder builder) : map_(map_of(scene, light, builder)) {}
+  /// Directional lights have the exact builder whatever `options` say. Throws Error as the maps do.
+  LightLists(const Scene& scene, const Light& light, const PointLight::Options& options)
+      : map_(map_of(scene, light, options)) {}
+
+  /// Lists made by the caller.
+  explicit LightLists(PointLight&& map) : map_(std::move(map)) {}
 
   bool is_blocked(const SurfacePoint& point, Counters* counters) const {
     return std::visit([&](const auto& map) { return map.is_blocked(point, counters); }, map_);
@@ -33,11 +38,12 @@ class LightLists {
  private:
   using Map = std::variant<PointLight, ParallelLight>;
 
-  static Map map_of(const Scene& scene, const Light& light, Builder builder) {
-    if (light.kind == Light::Kind::Directional) return ParallelLight(scene, light.direction);
-    PointLight::Options options;
-    options.builder = builder;
-    return PointLight(scene, light.position, options);
+  static Map map_of(const Scene& scene, const Light& light, const PointLight::Options& options) {
+    if (light.kind != Light::Kind::Directional) return PointLight(scene, light.position, options);
+    ParallelLight::Options parallel;
+    parallel.cut_outs = options.cut_outs;
+    parallel.max_texture_pixels = options.max_texture_pixels;
+    return ParallelLight(scene, light.direction, parallel);
   }
 
   Map map_;

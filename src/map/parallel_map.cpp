@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "map/face_planes.h"
+#include "map/map_faces.h"
 #include "map/nearest_hit.h"
 #include "map/parallel_cover.h"
 #include "map/parallel_parts.h"
@@ -55,7 +56,15 @@ std::optional<ParallelFaces::Asked> ParallelMap::Parts::asked(const Candidates& 
 ParallelMap::ParallelMap(const Scene& scene, const Vector& direction, const Options& options)
     : scene_(&scene), direction_(direction) {
   const FloatingPointMode mode;
-  parts_ = std::make_unique<Parts>(scene, direction, options);
+  const MapFaces faces = map_faces(scene, options.cut_outs, options.max_texture_pixels);
+  cut_outs_ = faces.cut_outs;
+  all_ = &faces.all();
+  solid_ = &faces.solid();
+  parts_ = std::make_unique<Parts>(*solid_, direction, options);
+  if (!faces.has_cut_outs()) return;
+  Options all = options;
+  all.keep_all = true;  // nothing is hidden for certain behind a face with holes
+  cut_parts_ = std::make_unique<Parts>(cut_outs_->cut(), direction, all);
 }
 
 ParallelMap::~ParallelMap() = default;
@@ -64,10 +73,20 @@ ParallelMap& ParallelMap::operator=(ParallelMap&&) noexcept = default;
 
 int ParallelMap::width() const noexcept { return parts_->frame.width(); }
 int ParallelMap::height() const noexcept { return parts_->frame.height(); }
-int ParallelMap::side(FaceId face) const { return parts_->faces.side(static_cast<std::uint32_t>(face)); }
-std::size_t ParallelMap::entry_count() const noexcept { return parts_->texels.entry_count(); }
+
+int ParallelMap::side(FaceId face) const {
+  const auto id = static_cast<std::uint32_t>(face);
+  const int side = parts_->faces.side(id);
+  return side != 0 || !has_cut_outs() ? side : cut_parts_->faces.side(id);
+}
+
+std::size_t ParallelMap::entry_count() const noexcept {
+  return parts_->texels.entry_count() + (has_cut_outs() ? cut_parts_->texels.entry_count() : 0);
+}
+
 std::size_t ParallelMap::memory_bytes() const noexcept {
-  return parts_->faces.memory_bytes() + parts_->texels.memory_bytes();
+  const auto bytes = [](const Parts& parts) { return parts.faces.memory_bytes() + parts.texels.memory_bytes(); };
+  return bytes(*parts_) + (has_cut_outs() ? bytes(*cut_parts_) : 0);
 }
 
 std::span<const std::uint32_t> ParallelMap::faces_at(int texel_x, int texel_y) const {
@@ -77,18 +96,20 @@ std::span<const std::uint32_t> ParallelMap::faces_at(int texel_x, int texel_y) c
 
 namespace {
 
-/// A ray from `origin` along the map's direction, and the faces that it is asked to meet.
+/// A ray from `origin` along the map's direction that tells `best` which faces it meets.
 class ParallelRay {
  public:
   ParallelRay(const Scene& scene, const Vector& origin, const Vector& direction, const ParallelFaces& faces,
-              const std::optional<ParallelFaces::Asked>& asked, Counters* counters)
+              const std::optional<ParallelFaces::Asked>& asked, const CutOuts* cut_outs, NearestHit& best,
+              Counters* counters)
       : scene_(scene),
         O_(origin),
         d_(direction),
         faces_(faces),
         asked_(asked),
+        cut_outs_(cut_outs),
         counters_(counters),
-        best_(scene, origin, direction, counters) {}
+        best_(best) {}
 
   void meet(std::uint32_t id) {
     const int s = faces_.side(id);
@@ -97,22 +118,25 @@ class ParallelRay {
       const bool is_missed = sides.surely_outside || sides.beyond > 0;
       const bool is_hit = sides.surely_inside && sides.beyond < 0;
       if ((is_missed || is_hit) && counters_ != nullptr) ++counters_->by_float;
-      if (is_hit) best_.meet(id, s, true);
+      if (is_hit && is_there(id)) best_.meet(id, s, true);
       if (is_missed || is_hit) return;
     }
     const Covering covering = covers_along(triangle_of(scene_, id), s, O_, d_, counters_);
-    if (covering.hit) best_.meet(id, s, covering.strictly_inside);
+    if (covering.hit && is_there(id)) best_.meet(id, s, covering.strictly_inside);
   }
 
-  const NearestHit& best() const { return best_; }
-
  private:
+  bool is_there(std::uint32_t id) const {
+    return cut_outs_ == nullptr || cut_outs_->is_there(id, DVector(O_), DVector(d_));
+  }
+
   const Scene& scene_;
   const Vector &O_, &d_;
   const ParallelFaces& faces_;
   const std::optional<ParallelFaces::Asked>& asked_;
+  const CutOuts* cut_outs_;  // null: its faces have no holes
   Counters* counters_;
-  NearestHit best_;
+  NearestHit& best_;
 };
 
 }  // namespace
@@ -120,23 +144,46 @@ class ParallelRay {
 Camera::Hit ParallelMap::nearest(const Vector& origin, Counters* counters) const {
   const FloatingPointMode mode;
   if (!std::isfinite(double{origin.x} + origin.y + origin.z)) return {};
+  NearestHit best = nearest_solid(origin, counters);
+  if (has_cut_outs()) meet_cut_outs(origin, best, counters);
+  return best.with_depth();
+}
+
+NearestHit ParallelMap::nearest_solid(const Vector& origin, Counters* counters) const {
   const ParallelFrame& frame = parts_->frame;
   const ParallelFaces& faces = parts_->faces;
   const DVector offset = offset_from(frame.origin(), GivenPoint{origin});
   const ParallelFrame::Place place = frame.place(offset, ParallelFrame::kSharpError);
-  const Parts::Candidates candidates = parts_->candidates(scene(), place);
+  const Parts::Candidates candidates = parts_->candidates(*solid_, place);
   const auto asked = parts_->asked(candidates, place);
-  ParallelRay ray(scene(), origin, direction_, faces, asked, counters);
-  const auto depth_of_best = [&] { return frame.depth(place.at.z + place.error + ray.best().reach()); };
+  NearestHit best(scene(), origin, direction_, counters);
+  ParallelRay ray(scene(), origin, direction_, faces, asked, nullptr, best, counters);
+  const auto depth_of_best = [&] { return frame.depth(place.at.z + place.error + best.reach()); };
   for (const std::uint32_t id : candidates.ids) {
     if (candidates.is_list && faces.nearest(id) > depth_of_best() * (1 + Texels::kDepthMargin)) break;
     ray.meet(id);
   }
   // Faces behind the cut are missing. A ray that starts before the face that covers the texel meets it or a nearer one.
-  if (!(depth_of_best() > candidates.cut * (1.0 + Texels::kDepthMargin))) return ray.best().with_depth();
-  ParallelRay through_all(scene(), origin, direction_, faces, asked, counters);
-  for (const std::uint32_t id : scene().kept_faces()) through_all.meet(id);
-  return through_all.best().with_depth();
+  if (!(depth_of_best() > candidates.cut * (1.0 + Texels::kDepthMargin))) return best;
+  NearestHit best_of_all(scene(), origin, direction_, counters);
+  ParallelRay through_all(scene(), origin, direction_, faces, asked, nullptr, best_of_all, counters);
+  for (const std::uint32_t id : solid_->kept_faces()) through_all.meet(id);
+  return best_of_all;
+}
+
+void ParallelMap::meet_cut_outs(const Vector& origin, NearestHit& best, Counters* counters) const {
+  const ParallelFrame& frame = cut_parts_->frame;
+  const ParallelFaces& faces = cut_parts_->faces;
+  const DVector offset = offset_from(frame.origin(), GivenPoint{origin});
+  const ParallelFrame::Place place = frame.place(offset, ParallelFrame::kSharpError);
+  const Parts::Candidates candidates = cut_parts_->candidates(cut_outs_->cut(), place);
+  const auto asked = cut_parts_->asked(candidates, place);
+  ParallelRay ray(scene(), origin, direction_, faces, asked, cut_outs_.get(), best, counters);
+  for (const std::uint32_t id : candidates.ids) {
+    const double depth = frame.depth(place.at.z + place.error + best.reach());
+    if (candidates.is_list && faces.nearest(id) > depth * (1 + Texels::kDepthMargin)) return;
+    ray.meet(id);
+  }
 }
 
 SurfacePoint ParallelMap::surface_point(const Vector& origin, const Camera::Hit& hit) const {

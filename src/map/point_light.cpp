@@ -6,6 +6,7 @@
 
 #include "map/cover.h"
 #include "map/face_planes.h"
+#include "map/map_faces.h"
 #include "map/raster_size.h"
 #include "map/texels.h"
 #include "math/dvector.h"
@@ -97,6 +98,10 @@ Projection projection_for(const Scene& scene, const SpaceVector& frame, const Po
 
 constexpr std::uint32_t kSkipNone = 0xffffffffu;
 
+// Whether what the filter takes for a blocker is one: not if it may be within a tolerance.
+bool is_far_enough(const TruePoint&) { return true; }
+bool is_far_enough(const GivenPoint& point) { return point.tolerance == 0; }
+
 // Faces of a list that are asked before the undecided among them are asked exactly.
 constexpr std::size_t kFewFaces = 64;
 
@@ -139,10 +144,13 @@ simd::PlaneMap plane_map_of(const SpaceVector& frame, const Projection& projecti
 }  // namespace
 
 PointLight::PointLight(const Scene& scene, const Vector& position, const Options& options)
-    : PointLight(scene, SpaceVector::looking_along(position, sight_of(scene, position)), options) {}
+    : PointLight(map_faces(scene, options.cut_outs, options.max_texture_pixels), position, options) {}
 
-PointLight::PointLight(const Scene& scene, const SpaceVector& frame, const Options& options)
-    : FaceMap(scene, frame, projection_for(scene, frame, options), options.builder, options.keep_all) {}
+PointLight::PointLight(const MapFaces& faces, const Vector& position, const Options& options)
+    : PointLight(faces, SpaceVector::looking_along(position, sight_of(faces.all(), position)), options) {}
+
+PointLight::PointLight(const MapFaces& faces, const SpaceVector& frame, const Options& options)
+    : FaceMap(faces, frame, projection_for(faces.all(), frame, options), options.builder, options.keep_all) {}
 
 template <class Point>
 bool PointLight::is_blocked(const DVector& offset, const Point& point, std::uint32_t skip, float tolerance,
@@ -184,13 +192,43 @@ bool PointLight::is_blocked(const DVector& offset, const Point& point, std::uint
   return false;
 }
 
+// Each face is asked by itself: behind one with a hole the next may block.
+template <class Point>
+bool PointLight::is_blocked_by_cut_outs(const DVector& offset, const Point& point, const DVector& place,
+                                        std::uint32_t skip, Counters* counters) const {
+  const std::optional<Texel> texel = has_cut_outs() ? texel_of(offset) : std::nullopt;
+  if (!texel) return false;
+  const double length_in_map = length(offset) * planes().scale();
+  const bool is_for_filter = length_in_map < simd::kLargestOffset;
+  const simd::ListPoint asked =
+      is_for_filter ? list_point(offset * planes().scale(), length_in_map) : simd::ListPoint();
+  const DVector towards = DVector(position()) - place;
+  for (const std::uint32_t id : cut_outs_at(texel->x, texel->y)) {
+    if (id == skip) continue;
+    if (is_for_filter) {
+      std::uint32_t undecided;
+      const simd::BlockWalk walk = simd::find_blocker(planes().planes(), &id, 1, asked, kSkipNone, &undecided);
+      if (walk.ended) return false;
+      if (counters != nullptr) counters->by_float += walk.tested - walk.undecided;
+      if (!walk.blocked && walk.undecided == 0) continue;
+      if (walk.blocked && is_far_enough(point) && cut_outs().is_there(id, place, towards)) return true;
+      if (walk.blocked && is_far_enough(point)) continue;
+    }
+    if (blocks(triangle_of(scene(), id), planes().side(id), position(), point, counters) &&
+        cut_outs().is_there(id, place, towards)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 // A list that `is_cut` is not complete for this point: then every face of the scene is asked besides.
 template <class Predicate>
 bool PointLight::is_blocked_for_sure(std::span<const std::uint32_t> ids, bool is_cut, std::uint32_t skip,
                                      const Predicate& blocks) const {
   const auto blocks_other = [&](std::uint32_t id) { return id != skip && blocks(id); };
   if (std::any_of(ids.begin(), ids.end(), blocks_other)) return true;
-  const std::vector<std::uint32_t>& all = scene().kept_faces();
+  const std::vector<std::uint32_t>& all = solid_faces().kept_faces();
   return is_cut && std::any_of(all.begin(), all.end(), blocks_other);
 }
 
@@ -248,6 +286,11 @@ void PointLight::ask_together(std::span<const Vector> points, std::uint8_t* lit,
     const std::size_t i = numbers[k];
     lit[i] = verdicts[k] == simd::kUndecided ? get_lighten_up(points[i], counters) : verdicts[k] == simd::kNo;
   }
+  for (std::size_t i = 0; has_cut_outs() && i < points.size(); ++i) {
+    if (lit[i] == 0 || chunk.texel[i] < 0) continue;
+    const bool is_alone = cut_texels().faces_at(static_cast<std::size_t>(chunk.texel[i])).empty();
+    if (!is_alone) lit[i] = get_lighten_up(points[i], counters);
+  }
   if (counters != nullptr) counters->by_float += by_float;
 }
 
@@ -257,7 +300,8 @@ bool PointLight::is_blocked(const SurfacePoint& point, Counters* counters) const
   const DVector offset = offset_from(position(), p, ray_parameter(p));
   if (offset == DVector(0)) return false;
   const std::uint32_t skip = point.face == kNoFace ? kSkipNone : static_cast<std::uint32_t>(point.face);
-  return is_blocked(offset, p, skip, 0, counters);
+  return is_blocked(offset, p, skip, 0, counters) ||
+         is_blocked_by_cut_outs(offset, p, seen_point(point), skip, counters);
 }
 
 bool PointLight::get_lighten_up(const SurfacePoint& point, Counters* counters) const {
@@ -283,7 +327,7 @@ bool PointLight::get_lighten_up(const Vector& point, const On& on, Counters* cou
   std::uint32_t skip = kSkipNone;
   if (on.face != kNoFace) {
     if (on.face < 0 || static_cast<std::size_t>(on.face) >= scene().face_count() ||
-        !scene().is_kept(static_cast<std::size_t>(on.face))) {
+        !all_faces().is_kept(static_cast<std::size_t>(on.face))) {
       throw Error("the face that a point lies on is not one of the scene's kept faces");
     }
     skip = static_cast<std::uint32_t>(on.face);
@@ -292,7 +336,8 @@ bool PointLight::get_lighten_up(const Vector& point, const On& on, Counters* cou
   }
   const DVector offset = offset_from(position(), given);
   if (offset == DVector(0)) return true;
-  return !is_blocked(offset, given, skip, on.tolerance, counters);
+  return !is_blocked(offset, given, skip, on.tolerance, counters) &&
+         !is_blocked_by_cut_outs(offset, given, DVector(point), skip, counters);
 }
 
 }  // namespace facemap

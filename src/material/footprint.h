@@ -2,7 +2,8 @@
 
 #include <facemap/vector.h>
 
-#include "material/surface_coordinates.h"
+#include "scene/surface_coordinates.h"
+#include "scene/texture_place.h"
 
 namespace facemap {
 
@@ -14,6 +15,9 @@ struct RayBundle {
 /// How far texture coordinates move from a sample to its neighbours.
 struct Footprint {
   TexturePoint right{0}, down{0};
+
+  /// The same on an image.
+  Footprint on(const TexturePlace& place) const { return {place.moved(right), place.moved(down)}; }
 };
 
 /// The face's texture coordinates as linear functions of place: `at(move)` is how much they change over it.

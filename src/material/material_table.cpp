@@ -72,7 +72,7 @@ MaterialTable::Spot MaterialTable::spot_of(const SeenSurface& seen, const FaceFr
 }
 
 TextureValue MaterialTable::value(const Map& map, const Spot& spot, const TexturePoint& offset) {
-  return map.texture->at(map.place.at(spot.uv) + offset, map.place.of(spot.footprint), *map.use);
+  return map.texture->at(map.place.at(spot.uv) + offset, spot.footprint.on(map.place), *map.use);
 }
 
 DVector MaterialTable::colour(const Map& map, const Spot& spot, const Vector& factor) {
@@ -101,7 +101,7 @@ DVector MaterialTable::relief(const Entry& entry, const Spot& spot, const SeenSu
                         std::max(0.0, 2 * double{texel.b} - 1));
     return tilted(seen.normal, axes, local, seen.is_behind);
   }
-  const double reach = map.texture->texels_across(map.place.of(spot.footprint));
+  const double reach = map.texture->texels_across(spot.footprint.on(map.place));
   const TexturePoint right(reach / map.texture->width(), 0), up(0, -reach / map.texture->height());
   const auto height = [&](const TexturePoint& offset) { return chosen(value(map, spot, offset), map.use->channel); };
   const double per_texel = strength * map.use->gain / (2 * reach);

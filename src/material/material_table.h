@@ -9,8 +9,8 @@
 #include "material/brdf.h"
 #include "material/footprint.h"
 #include "material/relief.h"
-#include "material/texture_place.h"
 #include "material/texture_set.h"
+#include "scene/texture_place.h"
 
 namespace facemap {
 

@@ -2,7 +2,7 @@
 
 #include <facemap/vector.h>
 
-#include "material/surface_coordinates.h"
+#include "scene/surface_coordinates.h"
 
 namespace facemap {
 

@@ -8,42 +8,10 @@
 
 #include "material/half_size.h"
 #include "material/texel_codes.h"
+#include "scene/texture_wrap.h"
 
 namespace facemap {
 namespace {
-
-// Beyond this, in widths of the texture, a place has no digits left to tell texels apart.
-constexpr double kFarthest = 0x1p40;
-
-double wrapped(double x, TextureUse::Wrap wrap) {
-  if (!(std::fabs(x) < kFarthest)) return 0;
-  switch (wrap) {
-    case TextureUse::Wrap::Repeat:
-      return x - std::floor(x);
-    case TextureUse::Wrap::Mirror:
-      return x - 2 * std::floor(x * 0.5);
-    case TextureUse::Wrap::Clamp:
-      return std::clamp(x, -1.0, 2.0);
-  }
-  return 0;
-}
-
-// The texel that stands at `i` of a wrapped place: i is within one texel of the range that wrapped() gives.
-int wrapped_texel(int i, int size, TextureUse::Wrap wrap) {
-  switch (wrap) {
-    case TextureUse::Wrap::Repeat:
-      if (i < 0) i += size;
-      if (i >= size) i -= size;
-      break;
-    case TextureUse::Wrap::Mirror:
-      if (i < 0) i = -1 - i;
-      if (i >= size) i = 2 * size - 1 - i;
-      break;
-    case TextureUse::Wrap::Clamp:
-      break;
-  }
-  return std::clamp(i, 0, size - 1);
-}
 
 float mixed(float a, float b, float share) { return a + (b - a) * share; }
 

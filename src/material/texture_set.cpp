@@ -3,25 +3,10 @@
 #include <facemap/error.h>
 
 #include <new>
-#include <span>
 
-#include "image/decode_image.h"
-#include "scene/file_mapping.h"
+#include "scene/read_texture.h"
 
 namespace facemap {
-namespace {
-
-// Of an image's file: more than any that decodes to the pixels allowed.
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 31;
-
-DecodedImage read(const TextureImage& image, std::uint64_t max_pixels) {
-  if (image.file.empty()) return decode_image(image.bytes, image.name, max_pixels);
-  const FileMapping file(image.file, kMostBytes);
-  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(file.text().data());
-  return decode_image(std::span(bytes, file.text().size()), image.file.string(), max_pixels);
-}
-
-}  // namespace
 
 TextureSet::TextureSet(const Scene& scene, std::uint64_t max_pixels, const Executor& executor) {
   const auto need = [&](const TextureUse& use, Encoding encoding) {
@@ -43,7 +28,7 @@ TextureSet::TextureSet(const Scene& scene, std::uint64_t max_pixels, const Execu
   executor.for_each(tasks.size(), [&](std::size_t i, int) {
     const TextureImage& image = scene.images()[tasks[i].key.first];
     try {
-      tasks[i].texture = std::make_unique<Texture>(read(image, max_pixels), tasks[i].key.second);
+      tasks[i].texture = std::make_unique<Texture>(read_texture(image, max_pixels), tasks[i].key.second);
     } catch (const Error& error) {
       tasks[i].warning = error.what();
     } catch (const std::bad_alloc&) {

@@ -2,39 +2,21 @@
 
 #include <facemap/camera.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "math/elementary.h"
 #include "picture/nearest_lens.h"
 #include "picture/nearest_raster.h"
 #include "picture/nearest_tiles.h"
 #include "picture/nearest_view.h"
+#include "picture/wide_map.h"
 #include "simd/floating_point_mode.h"
 
 namespace facemap {
 namespace {
 
 constexpr std::size_t kLeastSamples = 1 << 12;  // of a task
-constexpr int kLargestMap = 1024;               // texels a side
-
-// A map wide enough for all rays of a plane projection: one that rounding to float32 moves past the picture's border is
-// asked all the same.
-Camera::Options wide_enough(const Projection& projection) {
-  const double half_width = projection.width() * 0.5 * projection.texel_angle();
-  const double half_height = projection.height() * 0.5 * projection.texel_angle();
-  const double corner = elementary::atan2(std::sqrt(half_width * half_width + half_height * half_height), 1);
-  constexpr double kRoundedDirection = 0x1p-22;  // radians; components are off by 2^-24
-  Camera::Options options;
-  options.projection = ProjectionKind::Surface;
-  options.field_angle = std::min(2 * elementary::kPi, 2 * (corner * (1 + 0x1p-10) + kRoundedDirection));
-  options.width = options.height = std::clamp(std::max(projection.width(), projection.height()), 1, kLargestMap);
-  return options;
-}
 
 // The paper's way, one ray after the other.
 NearestFaces ask_lists(const Scene& scene, const SampleGrid& grid, const Executor& executor, Counters* counters) {
-  const Camera camera(scene, grid.frame, wide_enough(*grid.lens.projection()));
+  const Camera camera(scene, grid.frame, wide_map(grid.lens));
 
   NearestFaces nearest;
   nearest.faces.resize(grid.count());

@@ -24,4 +24,9 @@ std::span<const std::uint32_t> CentralEye::faces_at(int x, int y) const {
   return camera_.faces_at(x, y);
 }
 
+std::span<const std::uint32_t> CentralEye::cut_outs_at(int x, int y) const {
+  if (lens_.projection() == nullptr) return {};
+  return camera_.cut_outs_at(x, y);
+}
+
 }  // namespace facemap

@@ -30,6 +30,9 @@ class Eye {
   /// Candidates of a pixel besides what its rays have met, if they are listed.
   virtual std::span<const std::uint32_t> faces_at(int x, int y) const = 0;
 
+  /// Those with holes, which are not among them.
+  virtual std::span<const std::uint32_t> cut_outs_at(int /*x*/, int /*y*/) const { return {}; }
+
  protected:
   Eye() = default;
   Eye(const Eye&) = default;
@@ -48,6 +51,7 @@ class CentralEye final : public Eye {
   Camera::Hit nearest(const Ray& ray, Counters* counters) const override;
   RayBundle bundle(const Ray& ray, const MapPoint& place, double step) const override;
   std::span<const std::uint32_t> faces_at(int x, int y) const override;
+  std::span<const std::uint32_t> cut_outs_at(int x, int y) const override;
 
  private:
   const Camera& camera_;

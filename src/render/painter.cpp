@@ -146,13 +146,14 @@ void Painter::upsample_edges(int y, Worker& worker) {
   }
 }
 
-// The pixel's own list of the camera's map holds another candidate, or a neighbour shows another face (so perhaps
-// another normal) or other lights.
+// The pixel's own list of the camera's map holds another candidate or a face with holes, or a neighbour shows another
+// face (so perhaps another normal) or other lights.
 bool Painter::may_hold_edge(int x, int y) const {
   const std::size_t own = index(x, y);
   for (const std::uint32_t face : eye_.faces_at(made_.x + x, made_.y + y)) {
     if (static_cast<FaceId>(face) != image_.ids[own]) return true;
   }
+  if (!eye_.cut_outs_at(made_.x + x, made_.y + y).empty()) return true;
   for (int v = std::max(0, y - 1); v <= std::min(image_.height - 1, y + 1); ++v) {
     for (int u = std::max(0, x - 1); u <= std::min(image_.width - 1, x + 1); ++u) {
       const std::size_t other = index(u, v);

@@ -5,11 +5,11 @@
 #include <memory>
 
 #include "map/face_planes.h"
-#include "material/surface_coordinates.h"
 #include "math/dvector.h"
 #include "math/exact_sign.h"
 #include "picture/ray_table.h"
 #include "render/shade_batch.h"
+#include "scene/surface_coordinates.h"
 
 namespace facemap {
 namespace {

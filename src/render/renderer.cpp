@@ -18,6 +18,7 @@
 #include "render/planes.h"
 #include "render/stopwatch.h"
 #include "render/whole_picture.h"
+#include "scene/cut_outs.h"
 #include "simd/floating_point_mode.h"
 #include "simd/target.h"
 
@@ -105,7 +106,9 @@ struct Renderer::Kept {
 
   Executor executor;
   std::mutex reporting;
-  ListsOfLights lists;  // null until made
+  ListsOfLights lists;                      // null until made
+  std::shared_ptr<const CutOuts> cut_outs;  // null: all faces are solid
+  bool knows_cut_outs = false;
   TransposedState transposed;
   std::unique_ptr<MaterialTable> materials;      // made when colours are first wanted
   double spent_in_vain = 0, lost_to_bounds = 0;  // see PictureWork
@@ -178,6 +181,7 @@ Image Renderer::make(const Request& request) {
   statistics_.reason = choice.reason;
   statistics_.target = simd::name_of(simd::active_target());
   statistics_.threads = kept_->executor.threads();
+  find_cut_outs();
   if (request.wants_colours) load_materials();
   const bool by_lists = choice.strategy == Strategy::Lists;
   build_lists(request, by_lists);
@@ -186,8 +190,9 @@ Image Renderer::make(const Request& request) {
   const PixelBox pixels = request.wants_colours ? pixels_about_crop(options) : made;
   Options of_pixels = options;
   of_pixels.crop = pixels;
-  WholePicture picture(*scene_, view_, lights_, of_pixels, kept_->executor, kept_->transposed, kept_->lists, by_lists,
-                       choice.keeps_bounds, kept_->materials.get(), statistics_, request.report);
+  WholePicture picture(*scene_, kept_->cut_outs, view_, lights_, of_pixels, kept_->executor, kept_->transposed,
+                       kept_->lists, by_lists, choice.keeps_bounds, kept_->materials.get(), statistics_,
+                       request.report);
   const bool by_edges = options.sampling == Sampling::Edges;
   Image image = !request.wants_colours ? picture.look() : by_edges ? picture.paint_edges() : picture.paint();
   if (!(pixels == made)) image = cut(image, pixels, made);
@@ -213,13 +218,29 @@ void Renderer::fill_planes(Image& image) {
   statistics_.shade_ms += time.milliseconds();
 }
 
+void Renderer::find_cut_outs() {
+  const Stopwatch time;
+  if (options_.materials && !kept_->knows_cut_outs) {
+    kept_->cut_outs = scene_->cut_outs(options_.max_texture_pixels, options_.threads);
+  }
+  kept_->knows_cut_outs = true;
+  if (kept_->cut_outs == nullptr) return;
+  for (const std::string& warning : kept_->cut_outs->warnings()) warn_once(warning);
+  statistics_.shade_ms += time.milliseconds();
+}
+
+void Renderer::warn_once(const std::string& warning) {
+  std::vector<std::string>& known = statistics_.warnings;
+  if (std::find(known.begin(), known.end(), warning) == known.end()) known.push_back(warning);
+}
+
 void Renderer::load_materials() {
   if (!options_.materials || !MaterialTable::is_needed(*scene_)) return;
   const Stopwatch time;
   if (kept_->materials == nullptr) {
     kept_->materials = std::make_unique<MaterialTable>(*scene_, options_.max_texture_pixels, kept_->executor);
   }
-  statistics_.warnings = kept_->materials->warnings();
+  for (const std::string& warning : kept_->materials->warnings()) warn_once(warning);
   statistics_.shade_ms += time.milliseconds();
 }
 
@@ -231,10 +252,14 @@ void Renderer::build_lists(const Request& request, bool of_all) {
   for (std::size_t l = 0; l < lists.size(); ++l) {
     if (lists[l] == nullptr && (of_all || lights_[l].kind == Light::Kind::Directional)) missing.push_back(l);
   }
+  PointLight::Options wanted;
+  wanted.builder = request.options.builder;
+  wanted.cut_outs = options_.materials;
+  wanted.max_texture_pixels = options_.max_texture_pixels;
   std::size_t done = 0;
   kept_->executor.for_each(missing.size(), [&](std::size_t i, int) {
     const std::size_t l = missing[i];
-    lists[l] = std::make_unique<LightLists>(*scene_, lights_[l], request.options.builder);
+    lists[l] = std::make_unique<LightLists>(*scene_, lights_[l], wanted);
     const std::scoped_lock lock(kept_->reporting);
     request.report(static_cast<double>(++done) / static_cast<double>(missing.size()), "light maps");
   });
@@ -246,7 +271,10 @@ Image Renderer::paint_by_lists(const Request& request) {
   request.report(0, "camera map");
   const Stopwatch camera_time;
   const Lens lens = lens_of(view_, request.options.width, request.options.height);
-  const Camera camera(*scene_, frame_of(view_), camera_options(lens, request.options.builder));
+  Camera::Options wanted = camera_options(lens, request.options.builder);
+  wanted.cut_outs = options_.materials;
+  wanted.max_texture_pixels = options_.max_texture_pixels;
+  const Camera camera(*scene_, frame_of(view_), wanted);
   statistics_.camera_map_ms = camera_time.milliseconds();
   statistics_.map_bytes += camera.memory_bytes();
 

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstring>
 
+#include "picture/cut_out_faces.h"
+#include "picture/cut_out_shadows.h"
 #include "picture/hidden_points.h"
 #include "picture/lit_points.h"
 #include "picture/moved_points.h"
@@ -86,11 +88,14 @@ std::vector<Color> mean_of_samples(const SampleGrid& grid, const std::vector<Col
 
 }  // namespace
 
-WholePicture::WholePicture(const Scene& scene, const View& view, const std::vector<Light>& lights,
-                           const Renderer::Options& options, const Executor& executor, TransposedState& state,
-                           const ListsOfLights& lists, bool asks_lists, bool keeps_bounds,
+WholePicture::WholePicture(const Scene& scene, const std::shared_ptr<const CutOuts>& cut_outs, const View& view,
+                           const std::vector<Light>& lights, const Renderer::Options& options, const Executor& executor,
+                           TransposedState& state, const ListsOfLights& lists, bool asks_lists, bool keeps_bounds,
                            const MaterialTable* materials, Renderer::Statistics& statistics, Report report)
     : scene_(scene),
+      cut_outs_(cut_outs),
+      solid_(cut_outs != nullptr ? cut_outs->solid() : scene),
+      shown_(cut_outs != nullptr ? cut_outs->shown() : scene),
       view_(view),
       lights_(lights),
       options_(options),
@@ -152,10 +157,11 @@ void WholePicture::report(double share, const char* phase) {
 WholePicture::Seen WholePicture::see(const SampleGrid& grid, const Selection& select) {
   const Stopwatch camera_time;
   report(0, "camera map");
-  NearestFaces nearest = find_nearest_faces(scene_, grid, executor_, &statistics_.camera_tests);
+  NearestFaces nearest = find_nearest_faces(solid_, grid, executor_, &statistics_.camera_tests);
+  if (has_holes()) add_cut_outs(scene_, cut_outs_, grid, executor_, nearest, &statistics_.camera_tests);
   statistics_.camera_queries += grid.count();
   if (select) select(nearest.faces);
-  SeenPoints seen = find_seen_points(scene_, grid, nearest, places_, executor_);
+  SeenPoints seen = find_seen_points(shown_, grid, nearest, places_, executor_);
   statistics_.camera_map_ms += camera_time.milliseconds();
   ask_lights(grid, seen);
   return {grid, std::move(nearest.faces), std::move(seen)};
@@ -164,7 +170,7 @@ WholePicture::Seen WholePicture::see(const SampleGrid& grid, const Selection& se
 // What the first light of a scene needs, what moved points do if there are closed parts, and fresh memory for the
 // colours: by tasks of their own.
 void WholePicture::prepare_lights(const SampleGrid& grid, const MovedPoints& moved, SeenPoints& seen) {
-  const auto make_closed = [&] { state_.closed = std::make_unique<ClosedParts>(scene_, executor_); };
+  const auto make_closed = [&] { state_.closed = std::make_unique<ClosedParts>(solid_, executor_); };
   // Several threads find both without waiting to know whether there are closed parts at all.
   if (executor_.threads() == 1 && state_.closed == nullptr) make_closed();
   const bool makes_closed = state_.closed == nullptr;
@@ -173,7 +179,7 @@ void WholePicture::prepare_lights(const SampleGrid& grid, const MovedPoints& mov
   Counters counters;
   executor_.for_each(3, [&](std::size_t task, int worker) {
     if (task == 0 && finds_hidden) {
-      hidden = find_hidden_points(scene_, grid.frame.position(), seen.points, moved,
+      hidden = find_hidden_points(solid_, grid.frame.position(), seen.points, moved,
                                   state_.scratch[static_cast<std::size_t>(worker)], counters);
     }
     if (task == 1 && makes_closed) make_closed();
@@ -187,7 +193,7 @@ void WholePicture::prepare_lights(const SampleGrid& grid, const MovedPoints& mov
     seen.loose = std::move(loose);
   }
   if (keeps_bounds_ && !state_.bounds.are_made() && !lights_.empty()) {
-    state_.bounds.make(scene_, places_, state_.closed.get(), state_.closed->outside(scene_, grid.frame.position()),
+    state_.bounds.make(solid_, places_, state_.closed.get(), state_.closed->outside(solid_, grid.frame.position()),
                        executor_);
   }
 }
@@ -211,10 +217,13 @@ void WholePicture::ask_lights(const SampleGrid& grid, SeenPoints& seen) {
   }
   if (transposes_) {
     const LightWork work{
-        scene_, places_, state_.closed.get(), &state_.bounds, executor_, state_.scratch, [this](double share) {
+        solid_, places_, state_.closed.get(), &state_.bounds, executor_, state_.scratch, [this](double share) {
           report(0.3 + 0.5 * share, "shade");
         }};
     clear_blocked(work, grid, moved, seen, statistics_.light_tests);
+    if (has_holes()) {
+      clear_blocked_by_cut_outs(scene_, cut_outs_, places_, grid, executor_, moved, seen, statistics_.light_tests);
+    }
   }
   put_back_faces(moved, seen.points);
   statistics_.shade_ms += light_time.milliseconds();

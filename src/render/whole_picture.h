@@ -13,6 +13,7 @@
 #include "picture/seen_points.h"
 #include "picture/shadows.h"
 #include "scene/closed_parts.h"
+#include "scene/cut_outs.h"
 
 namespace facemap {
 
@@ -34,11 +35,13 @@ class WholePicture {
   /// Called now and then with the fraction done and the phase's name; it may throw.
   using Report = std::function<void(double, const char*)>;
 
-  /// `lists`: of directional lights, and of all if `asks_lists`; else the transposed way is taken for those with a
-  /// place, and if `keeps_bounds` their bounds are made, if they are not.
-  WholePicture(const Scene& scene, const View& view, const std::vector<Light>& lights, const Renderer::Options& options,
-               const Executor& executor, TransposedState& state, const ListsOfLights& lists, bool asks_lists,
-               bool keeps_bounds, const MaterialTable* materials, Renderer::Statistics& statistics, Report report);
+  /// `cut_outs`: what materials take away from faces, or null. `lists`: of directional lights, and of all if
+  /// `asks_lists`; else the transposed way is taken for those with a place, and if `keeps_bounds` their bounds are
+  /// made, if they are not.
+  WholePicture(const Scene& scene, const std::shared_ptr<const CutOuts>& cut_outs, const View& view,
+               const std::vector<Light>& lights, const Renderer::Options& options, const Executor& executor,
+               TransposedState& state, const ListsOfLights& lists, bool asks_lists, bool keeps_bounds,
+               const MaterialTable* materials, Renderer::Statistics& statistics, Report report);
 
   /// As Renderer::render.
   Image paint();
@@ -63,6 +66,7 @@ class WholePicture {
   Seen see(const SampleGrid& grid, const Selection& select = {});
   void prepare_lights(const SampleGrid& grid, const MovedPoints& moved, SeenPoints& seen);
   void ask_lights(const SampleGrid& grid, SeenPoints& seen);
+  bool has_holes() const { return cut_outs_ != nullptr && cut_outs_->any(); }
   Image empty_image(int per_side) const;
   SampleLights lights_of(const Seen& seen) const;
   void paint_centres(EdgePixels& edges, Image& image);
@@ -71,6 +75,8 @@ class WholePicture {
   void report(double share, const char* phase);
 
   const Scene& scene_;
+  const std::shared_ptr<const CutOuts>& cut_outs_;
+  const Scene &solid_, &shown_;  // its faces without holes, and all that are there somewhere
   const View& view_;
   const std::vector<Light>& lights_;
   const Renderer::Options& options_;

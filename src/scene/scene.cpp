@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -10,6 +12,7 @@
 
 #include "parallel/executor.h"
 #include "scene/check_mesh.h"
+#include "scene/cut_outs.h"
 #include "scene/file_mapping.h"
 #include "scene/model_format.h"
 #include "scene/obj_reader.h"
@@ -77,40 +80,64 @@ void check_images(const std::vector<Material>& materials, std::size_t count) {
 
 }  // namespace
 
+struct Scene::KnownCutOuts {
+  std::mutex finding;
+  std::map<std::uint64_t, std::shared_ptr<const CutOuts>> by_limit;  ///< of an image's pixels
+};
+
 Scene::Scene(Mesh mesh, std::vector<Material> materials, int threads)
     : Scene(std::move(mesh), without_maps(std::move(materials)), {}, {}, threads) {}
 
 Scene::Scene(Model model, int threads)
     : Scene(std::move(model.mesh), std::move(model.materials), std::move(model.images), {}, threads) {
-  report_ = report_of(mesh_, model.objects.size(), std::move(model.warnings));
-  object_runs_ = runs_of(model.triangle_objects, face_count(), model.objects.size());
-  objects_ = std::move(model.objects);
+  shared_->report = report_of(mesh(), model.objects.size(), std::move(model.warnings));
+  shared_->object_runs = runs_of(model.triangle_objects, face_count(), model.objects.size());
+  shared_->objects = std::move(model.objects);
 }
 
 Scene::Scene(Mesh mesh, std::vector<Material> materials, std::vector<TextureImage> images,
              const std::vector<SmoothingRun>& smoothing, int threads)
-    : mesh_(std::move(mesh)), materials_(std::move(materials)), images_(std::move(images)) {
+    : shared_(std::make_shared<Shared>()), known_cut_outs_(std::make_shared<KnownCutOuts>()) {
   const FloatingPointMode mode;
+  shared_->mesh = std::move(mesh);
+  shared_->materials = std::move(materials);
+  shared_->images = std::move(images);
   const Executor executor(face_count() < kSmallScene ? 1 : threads);
-  check_mesh(mesh_, materials_.size(), executor);
-  check_images(materials_, images_.size());
+  check_mesh(shared_->mesh, shared_->materials.size(), executor);
+  check_images(shared_->materials, shared_->images.size());
   // Normals are made one after the other, and faces are judged by their positions: side by side.
   executor.for_each(2, [&](std::size_t task, int) {
-    if (task == 0 && !smoothing.empty()) add_smooth_normals(mesh_, smoothing);
+    if (task == 0 && !smoothing.empty()) add_smooth_normals(shared_->mesh, smoothing);
     if (task == 1) examine_faces(executor);
   });
 }
 
 std::uint32_t Scene::object_of(std::size_t face) const {
-  const auto next =
-      std::upper_bound(object_runs_.begin(), object_runs_.end(), face,
-                       [](std::size_t wanted, const ObjectRun& run) { return wanted < run.first_triangle; });
-  return next == object_runs_.begin() ? kNoIndex : std::prev(next)->object;
+  const std::vector<ObjectRun>& runs = shared_->object_runs;
+  const auto next = std::upper_bound(runs.begin(), runs.end(), face, [](std::size_t wanted, const ObjectRun& run) {
+    return wanted < run.first_triangle;
+  });
+  return next == runs.begin() ? kNoIndex : std::prev(next)->object;
+}
+
+Scene::Scene(const Scene& whole, std::vector<std::uint8_t> kept) : shared_(whole.shared_), kept_(std::move(kept)) {
+  const Executor executor(1);
+  list_kept_faces(executor);
+  find_bounds(executor);
+}
+
+std::shared_ptr<const CutOuts> Scene::cut_outs(std::uint64_t max_texture_pixels, int threads) const {
+  if (known_cut_outs_ == nullptr) return nullptr;
+  const std::scoped_lock lock(known_cut_outs_->finding);
+  auto& known = known_cut_outs_->by_limit;
+  const auto found = known.find(max_texture_pixels);
+  if (found != known.end()) return found->second;
+  return known[max_texture_pixels] = CutOuts::find(*this, max_texture_pixels, threads);
 }
 
 void Scene::examine_faces(const Executor& executor) {
-  welded_ = weld(mesh_.positions, executor);
-  odd_ = find_odd_faces(mesh_, welded_, executor, kept_);
+  shared_->welded = weld(mesh().positions, executor);
+  shared_->odd = find_odd_faces(mesh(), welded(), executor, kept_);
   list_kept_faces(executor);
   find_bounds(executor);
 }
@@ -124,9 +151,9 @@ Scene Scene::load(const std::filesystem::path& path, int threads) {
   if (format == ModelFormat::Obj) {
     ObjModel model = load_obj(file, path, limits);
     Scene scene(std::move(model.mesh), std::move(model.materials), std::move(model.images), model.smoothing, threads);
-    scene.report_ = std::move(model.report);
-    scene.objects_ = std::move(model.objects);
-    scene.object_runs_ = std::move(model.object_runs);
+    scene.shared_->report = std::move(model.report);
+    scene.shared_->objects = std::move(model.objects);
+    scene.shared_->object_runs = std::move(model.object_runs);
     return scene;
   }
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
@@ -138,8 +165,6 @@ Scene Scene::load(const std::filesystem::path& path, int threads) {
 }
 
 void Scene::list_kept_faces(const Executor& executor) {
-  const std::int64_t odd_count = odd_.zero_area + odd_.repeated_vertex + odd_.duplicate;
-  kept_faces_.resize(face_count() - static_cast<std::size_t>(odd_count));
   const Pieces pieces(executor, face_count(), kLeastPiece);
   std::vector<std::size_t> begins(pieces.size() + 1, 0);
   executor.for_each(pieces.size(), [&](std::size_t piece, int) {
@@ -147,6 +172,7 @@ void Scene::list_kept_faces(const Executor& executor) {
         std::count(kept_.begin() + pieces.offset(piece), kept_.begin() + pieces.offset(piece + 1), std::uint8_t{1}));
   });
   std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  kept_faces_.resize(begins.back());
   executor.for_each(pieces.size(), [&](std::size_t piece, int) {
     std::size_t place = begins[piece];
     for (std::size_t face = pieces.begin(piece); face != pieces.end(piece); ++face) {
@@ -156,7 +182,7 @@ void Scene::list_kept_faces(const Executor& executor) {
 }
 
 void Scene::find_bounds(const Executor& executor) {
-  const VertexBounds bounds(mesh_, kept_faces_, executor);
+  const VertexBounds bounds(mesh(), kept_faces_, executor);
   const auto [lower, upper] = bounds.box();
   lower_ = lower;
   upper_ = upper;

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "material/surface_coordinates.h"
 #include "render/light_sources.h"
+#include "scene/surface_coordinates.h"
 #include "simd/target.h"
 #include "support/oracle.h"
 #include "support/parallel_oracle.h"

@@ -64,12 +64,13 @@ bool has_zero_area(const Vector& a, const Vector& b, const Vector& c) {
   return n.x == 0 && n.y == 0 && n.z == 0;
 }
 
-Oracle::Oracle(const Mesh& mesh) : mesh_(&mesh), kept_(mesh.face_count(), 0) {
+Oracle::Oracle(const Mesh& mesh, const Holes* holes) : mesh_(&mesh), holes_(holes), kept_(mesh.face_count(), 0) {
   std::map<PositionTriple, FaceId> seen;
   for (std::size_t i = 0; i < mesh.face_count(); ++i) {
     const auto face = static_cast<FaceId>(i);
     if (has_zero_area(mesh.vertex(i, 0), mesh.vertex(i, 1), mesh.vertex(i, 2))) continue;
-    if (!seen.emplace(sorted_positions(mesh, face), face).second) continue;
+    if (kind(face) == Holes::Kind::Gone) continue;
+    if (kind(face) == Holes::Kind::Solid && !seen.emplace(sorted_positions(mesh, face), face).second) continue;
     kept_[i] = 1;
     kept_faces_.push_back(face);
   }
@@ -211,11 +212,14 @@ bool View::is_beyond(const FacePlanes& planes, const Target& target) const {
   return planes.s * sgn(mpz_class(dot(plane.n, target.X) - target.w * height)) > 0;
 }
 
-std::vector<View::Meeting> View::all_meetings(const Target& target) const {
+std::vector<View::Meeting> View::all_meetings(const Vector& d) const {
+  const Target target = target_from(d);
+  const Holes::Point from{origin_.x, origin_.y, origin_.z}, along{d.x, d.y, d.z};
   std::vector<Meeting> result;
   for_each_near(target, [&](std::size_t i) {
     bool strictly_inside = false;
-    if (meets(faces_[i], target, &strictly_inside)) result.push_back({i, strictly_inside});
+    if (meets(faces_[i], target, &strictly_inside) && oracle_->is_there(faces_[i].face, from, along))
+      result.push_back({i, strictly_inside});
     return true;
   });
   return result;
@@ -246,7 +250,7 @@ int View::compare_distance(const FacePlanes& f, const FacePlanes& g, const Targe
 Hit View::nearest(const Vector& direction) const {
   if (is_zero(direction)) return {};
   const Target target = target_from(direction);
-  const std::vector<Meeting> meetings = all_meetings(target);
+  const std::vector<Meeting> meetings = all_meetings(direction);
   if (meetings.empty()) return {};
   const Meeting* best = &meetings[0];
   bool tied = false;
@@ -264,7 +268,7 @@ Hit View::nearest(const Vector& direction) const {
 }
 
 int View::count_hits(const Vector& direction) const {
-  return is_zero(direction) ? 0 : static_cast<int>(all_meetings(target_from(direction)).size());
+  return is_zero(direction) ? 0 : static_cast<int>(all_meetings(direction).size());
 }
 
 bool View::meets(FaceId face, const Vector& direction) const {
@@ -303,12 +307,20 @@ Target View::target_of(const Vector& point, FaceId on_face) const {
   return target_from(square * (P - L) - height * F.n, square);
 }
 
+// Where a light's line to a point meets a face, it is looked for from the point.
+bool View::is_there_before(FaceId face, const Holes::Point& point) const {
+  return oracle_->is_there(face, point, {origin_.x - point[0], origin_.y - point[1], origin_.z - point[2]});
+}
+
 bool View::is_blocked(const SurfacePoint& point) const {
   const Target target = target_of(point);
+  const Vector &K = point.origin, &d = point.direction;
+  const Holes::Point place = Holes::crossing(point.vertices, {K.x, K.y, K.z}, {d.x, d.y, d.z});
   bool blocked = false;
   for_each_near(target, [&](std::size_t i) {
     bool strictly_inside = false;
-    blocked = meets(faces_[i], target, &strictly_inside) && is_beyond(faces_[i], target);
+    const FacePlanes& G = faces_[i];
+    blocked = meets(G, target, &strictly_inside) && is_beyond(G, target) && is_there_before(G.face, place);
     return !blocked;
   });
   return blocked;
@@ -336,7 +348,7 @@ bool View::is_lit(const Vector& point, const facemap::PointLight::On& on) const 
     const FacePlanes& G = faces_[i];
     bool strictly_inside = false;
     blocked = G.face != on.face && meets(G, target, &strictly_inside) && is_beyond(G, target) &&
-              is_far_from_plane(G.face, point, on.tolerance);
+              is_far_from_plane(G.face, point, on.tolerance) && is_there_before(G.face, {point.x, point.y, point.z});
     return !blocked;
   });
   return !blocked;

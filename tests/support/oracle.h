@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "support/big_numbers.h"
+#include "support/holes.h"
 
 /// The referee: which face is nearest, whether a point is lit, by asking every face of a mesh. It has its own
 /// arithmetic and its own reading of the contract and shares no code with src/; it knows no map.
@@ -44,12 +45,19 @@ struct Hit {
 class View;
 
 /// A mesh, and which of its faces count: not those of zero area, not those with the same three positions as a
-/// face of lower id.
+/// face of lower id. With holes: not those of which nothing is there; those that are cut out count whatever their
+/// positions, and are no reason to leave out a solid one.
 class Oracle {
  public:
-  explicit Oracle(const Mesh& mesh);
+  explicit Oracle(const Mesh& mesh, const Holes* holes = nullptr);
 
   const Mesh& mesh() const { return *mesh_; }
+
+  /// Whether a face is there where the line from p along d meets it.
+  bool is_there(FaceId face, const Holes::Point& p, const Holes::Point& d) const {
+    return kind(face) != Holes::Kind::CutOut || holes_->is_there(face, p, d);
+  }
+
   bool is_kept(FaceId face) const { return kept_[face] != 0; }
   const std::vector<FaceId>& kept_faces() const { return kept_faces_; }
 
@@ -63,7 +71,10 @@ class Oracle {
   int side(FaceId face, const Vector& origin) const;
 
  private:
+  Holes::Kind kind(FaceId face) const { return holes_ == nullptr ? Holes::Kind::Solid : holes_->kind(face); }
+
   const Mesh* mesh_;
+  const Holes* holes_;
   std::vector<std::uint8_t> kept_;
   std::vector<FaceId> kept_faces_;
 };
@@ -114,7 +125,8 @@ class View {
   int edge_sign(const FacePlanes& planes, int edge, const Target& target) const;
   int exact_edge_sign(const FacePlanes& planes, int edge, const Target& target) const;
   int compare_distance(const FacePlanes& f, const FacePlanes& g, const Target& target) const;
-  std::vector<Meeting> all_meetings(const Target& target) const;
+  std::vector<Meeting> all_meetings(const Vector& direction) const;
+  bool is_there_before(FaceId face, const Holes::Point& point) const;
   Target target_from(const BigVector& X, const mpz_class& w) const;
   Target target_from(const Vector& direction) const;
   Target target_of(const SurfacePoint& point) const;

@@ -165,7 +165,7 @@ struct Expected {
 Expected shade_singly(const Setting& setting, const MaterialTable* materials = nullptr) {
   Expected expected;
   for (const Light& light : setting.lights) {
-    expected.lights.push_back(std::make_unique<LightLists>(setting.scene, light, Builder::Cover));
+    expected.lights.push_back(std::make_unique<LightLists>(setting.scene, light, PointLight::Options()));
   }
   Camera::Options options;
   options.projection = setting.grid.lens.projection()->kind();

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "material/texel_codes.h"
-#include "material/texture_place.h"
 #include "math/elementary.h"
+#include "scene/texture_place.h"
 
 namespace facemap {
 namespace {
@@ -177,7 +177,7 @@ TEST(TexturePlace, TurnsUTowardsVAndFlipsWhatGoesUp) {
   p = TexturePlace(use).at({0.1, 0.2});
   EXPECT_NEAR(p.x, 0.5 - 0.6, 1e-7);
   EXPECT_NEAR(p.y, 0.25 + 0.2, 1e-7);
-  const Footprint moved = TexturePlace(use).of({{1, 0}, {0, 1}});
+  const Footprint moved = Footprint{{1, 0}, {0, 1}}.on(TexturePlace(use));
   EXPECT_NEAR(moved.right.y, 2, 1e-6);
   EXPECT_NEAR(moved.down.x, -3, 1e-6);
 }

@@ -21,10 +21,14 @@ struct FaceCorners {
   DVector n;
 };
 
-inline FaceCorners corners_of(const Mesh& mesh, std::size_t face) {
-  FaceCorners c{{DVector(mesh.vertex(face, 0)), DVector(mesh.vertex(face, 1)), DVector(mesh.vertex(face, 2))}, {}};
+inline FaceCorners corners_of(const Vector& v0, const Vector& v1, const Vector& v2) {
+  FaceCorners c{{DVector(v0), DVector(v1), DVector(v2)}, {}};
   c.n = cross(c.v[1] - c.v[0], c.v[2] - c.v[0]);
   return c;
+}
+
+inline FaceCorners corners_of(const Mesh& mesh, std::size_t face) {
+  return corners_of(mesh.vertex(face, 0), mesh.vertex(face, 1), mesh.vertex(face, 2));
 }
 
 /// Where the line from K along d meets the plane; a ray so grazing that its slope rounds to zero gets the corner.

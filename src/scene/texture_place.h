@@ -2,8 +2,8 @@
 
 #include <facemap/texture.h>
 
-#include "material/footprint.h"
 #include "math/elementary.h"
+#include "scene/surface_coordinates.h"
 
 namespace facemap {
 
@@ -21,11 +21,11 @@ class TexturePlace {
   }
 
   TexturePoint at(const TexturePoint& uv) const { return origin_ + moved(uv); }
-  Footprint of(const Footprint& f) const { return {moved(f.right), moved(f.down)}; }
 
- private:
+  /// A difference of places.
   TexturePoint moved(const TexturePoint& uv) const { return {x_.x * uv.x + x_.y * uv.y, y_.x * uv.x + y_.y * uv.y}; }
 
+ private:
   TexturePoint x_{0}, y_{0}, origin_{0};
 };
 
