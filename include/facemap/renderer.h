@@ -61,7 +61,7 @@ class Renderer {
   /// How the samples about a pixel make its colour.
   enum class Filter {
     Box,             ///< the mean of those in the pixel
-    BlackmanHarris,  ///< weighted by a window that reaches into the neighbours: less jagged, a little softer
+    BlackmanHarris,  ///< weighted by a window that falls off smoothly and may reach into the neighbours
   };
 
   /// How the questions of a picture are answered; the answers are the same.
