@@ -45,7 +45,7 @@ Bytes exr_of(const Picture& picture) {
   for (const Plane plane : all_planes()) {
     if (picture.layers.has(plane)) layers.push_back(plane_layers(picture.image, plane));
   }
-  return encode_exr(layers);
+  return encode_exr(layers, picture.threads);
 }
 
 Bytes pfm_of(const Picture& picture) { return encode_pfm(color_plane(picture.image)); }
@@ -141,7 +141,7 @@ Bytes encode_plane(const Image& image, Plane plane, FileFormat format, int quali
   switch (format) {
     case FileFormat::Exr: {
       const ExrLayers layers[] = {plane_layers(image, plane)};
-      return encode_exr(layers);
+      return encode_exr(layers, threads);
     }
     case FileFormat::Pfm:
       return encode_pfm(plane_view(image, plane));

@@ -70,7 +70,7 @@ ExrLayers plane_layers(const Image& image, Plane plane);
 
 /// OpenEXR: scan lines, ZIP compression, linear light with the primaries of sRGB. Every plane has the same size; no
 /// name is there twice.
-std::vector<std::uint8_t> encode_exr(std::span<const ExrLayers> layers);
+std::vector<std::uint8_t> encode_exr(std::span<const ExrLayers> layers, int threads = 0);
 
 /// Writes the whole file or nothing: under a temporary name beside `path`, then renamed. Throws Error, naming the file
 /// and the reason (disk full included).

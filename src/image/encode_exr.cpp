@@ -1,126 +1,119 @@
-#include <ImathBox.h>
-#include <ImfChannelList.h>
-#include <ImfChromaticities.h>
-#include <ImfFrameBuffer.h>
-#include <ImfHeader.h>
-#include <ImfIO.h>
-#include <ImfOutputFile.h>
-#include <ImfStandardAttributes.h>
 #include <half.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <list>
 
+#include "image/exr_file.h"
 #include "image/plane.h"
+#include "parallel/executor.h"
 
 namespace facemap {
 namespace {
 
 constexpr float kLargestHalf = 65504;
+constexpr std::size_t kMostChunkBytes = std::size_t{1} << 30;  ///< sizes in the file have 31 bits
 
-/// A file in memory.
-class ByteStream : public Imf::OStream {
- public:
-  ByteStream() : OStream("EXR") {}
-
-  void write(const char bytes[], int count) override {
-    const auto size = static_cast<std::size_t>(count);
-    if (bytes_.size() < at_ + size) bytes_.resize(at_ + size);
-    std::memcpy(bytes_.data() + at_, bytes, size);
-    at_ += size;
-  }
-  std::uint64_t tellp() override { return at_; }
-  void seekp(std::uint64_t at) override { at_ = at; }
-
-  std::vector<std::uint8_t> take() { return std::move(bytes_); }
-
- private:
-  std::vector<std::uint8_t> bytes_;
-  std::size_t at_ = 0;
+/// A channel of the file, and where its values are.
+struct Source {
+  exr::Channel channel;
+  const PlaneView* plane;
+  std::size_t offset;  ///< of the first value
 };
 
-half to_half(float value) {
-  if (std::isfinite(value)) value = std::clamp(value, -kLargestHalf, kLargestHalf);
-  return value;
+exr::PixelType type_of(const ExrLayers& layers) {
+  const bool is_half = layers.storage == ExrLayers::Storage::Half;
+  if (std::holds_alternative<std::span<const float>>(layers.plane.values)) {
+    return is_half ? exr::PixelType::Half : exr::PixelType::Float;
+  }
+  if (is_half) throw Error("EXR: whole numbers are not stored as half");
+  return exr::PixelType::Uint;
 }
 
-/// Gathers header and slices, and values that had to be converted.
-class ExrWriter {
- public:
-  ExrWriter(int width, int height) : width_(width), height_(height) {}
+void check(const ExrLayers& layers, const PlaneView& first) {
+  if (layers.plane.width != first.width || layers.plane.height != first.height)
+    throw Error("EXR: the planes are of different sizes");
+  check_plane("EXR", layers.plane);
+  if (layers.names.size() != static_cast<std::size_t>(layers.plane.channels))
+    throw Error("EXR: a plane has not as many names as channels");
+}
 
-  void add(const ExrLayers& layers) {
-    if (layers.plane.width != width_ || layers.plane.height != height_)
-      throw Error("EXR: the planes are of different sizes");
-    check_plane("EXR", layers.plane);
-    if (layers.names.size() != static_cast<std::size_t>(layers.plane.channels))
-      throw Error("EXR: a plane has not as many names as channels");
-    std::visit([&](const auto& values) { add_values(layers, values); }, layers.plane.values);
-  }
-
-  std::vector<std::uint8_t> encode() {
-    const Imath::Box2i window({0, 0}, {width_ - 1, height_ - 1});
-    Imf::Header header(window, window, 1, {0, 0}, 1, Imf::INCREASING_Y, Imf::ZIP_COMPRESSION);
-    header.channels() = channels_;
-    Imf::addChromaticities(header, Imf::Chromaticities());  // of Rec. 709, which are sRGB's
-    ByteStream stream;
-    {
-      constexpr int kNoThreads = 0;
-      Imf::OutputFile file(stream, header, kNoThreads);
-      file.setFrameBuffer(slices_);
-      file.writePixels(height_);
-    }  // writes the table of lines
-    return stream.take();
-  }
-
- private:
-  void add_values(const ExrLayers& layers, std::span<const float> values) {
-    if (layers.storage == ExrLayers::Storage::Exact) return add_slices(layers, Imf::FLOAT, values.data());
-    halves_.emplace_back(values.size());
-    std::transform(values.begin(), values.end(), halves_.back().begin(), to_half);
-    add_slices(layers, Imf::HALF, halves_.back().data());
-  }
-
-  template <typename Integer>
-  void add_values(const ExrLayers& layers, std::span<const Integer> values) {
-    if (layers.storage == ExrLayers::Storage::Half) throw Error("EXR: whole numbers are not stored as half");
-    if constexpr (sizeof(Integer) == sizeof(std::uint32_t)) return add_slices(layers, Imf::UINT, values.data());
-    integers_.emplace_back(values.begin(), values.end());
-    add_slices(layers, Imf::UINT, integers_.back().data());
-  }
-
-  template <typename Value>
-  void add_slices(const ExrLayers& layers, Imf::PixelType type, const Value* values) {
-    const std::size_t pixel = sizeof(Value) * layers.names.size(), row = pixel * static_cast<std::size_t>(width_);
-    for (const std::string& name : layers.names) {
-      if (name.empty() || channels_.findChannel(name)) throw Error("EXR: a layer's name is empty or there twice");
-      channels_.insert(name, Imf::Channel(type));
-      // OpenEXR reads the values and does not write to them.
-      char* const first = const_cast<char*>(reinterpret_cast<const char*>(values++));
-      slices_.insert(name, Imf::Slice(type, first, pixel, row));
+/// The channels of all layers in the order of their names.
+std::vector<Source> sources_of(std::span<const ExrLayers> layers) {
+  std::vector<Source> sources;
+  for (const ExrLayers& one : layers) {
+    check(one, layers[0].plane);
+    for (std::size_t k = 0; k < one.names.size(); ++k) {
+      sources.push_back({{one.names[k], type_of(one)}, &one.plane, k});
     }
   }
+  const auto name = [](const Source& source) -> const std::string& { return source.channel.name; };
+  std::sort(sources.begin(), sources.end(), [&](const Source& a, const Source& b) { return name(a) < name(b); });
+  const auto same = [&](const Source& a, const Source& b) { return name(a) == name(b); };
+  if (name(sources[0]).empty() || std::adjacent_find(sources.begin(), sources.end(), same) != sources.end())
+    throw Error("EXR: a layer's name is empty or there twice");
+  return sources;
+}
 
-  int width_, height_;
-  Imf::ChannelList channels_;
-  Imf::FrameBuffer slices_;
-  std::list<std::vector<half>> halves_;
-  std::list<std::vector<std::uint32_t>> integers_;
-};
+std::uint16_t half_bits(float value) {
+  if (std::isfinite(value)) value = std::clamp(value, -kLargestHalf, kLargestHalf);
+  return half(value).bits();
+}
+
+template <typename Stored, typename Value, typename Convert>
+std::uint8_t* put(std::span<const Value> row, std::size_t step, std::uint8_t* to, const Convert& convert) {
+  for (std::size_t i = 0; i < row.size(); i += step, to += sizeof(Stored)) {
+    const Stored stored = convert(row[i]);
+    std::memcpy(to, &stored, sizeof stored);
+  }
+  return to;
+}
+
+/// Writes a row of a channel and returns what follows it.
+std::uint8_t* put_row(const Source& source, std::size_t y, std::uint8_t* to) {
+  const auto step = static_cast<std::size_t>(source.plane->channels);
+  const std::size_t stride = static_cast<std::size_t>(source.plane->width) * step;
+  const auto put_values = [&](const auto& values) {
+    const auto row = values.subspan(y * stride + source.offset, stride - source.offset);
+    using Value = std::remove_const_t<typename std::remove_reference_t<decltype(values)>::element_type>;
+    if constexpr (std::is_same_v<Value, float>) {
+      if (source.channel.type == exr::PixelType::Half) {
+        return put<std::uint16_t, float>(row, step, to, half_bits);
+      }
+      return put<float, float>(row, step, to, [](float value) { return value; });
+    } else {
+      return put<std::uint32_t, Value>(row, step, to, [](Value value) { return static_cast<std::uint32_t>(value); });
+    }
+  };
+  return std::visit(put_values, source.plane->values);
+}
 
 }  // namespace
 
-std::vector<std::uint8_t> encode_exr(std::span<const ExrLayers> layers) {
+std::vector<std::uint8_t> encode_exr(std::span<const ExrLayers> layers, int threads) {
   if (layers.empty()) throw Error("EXR: there are no layers");
-  try {
-    ExrWriter writer(layers[0].plane.width, layers[0].plane.height);
-    for (const ExrLayers& one : layers) writer.add(one);
-    return writer.encode();
-  } catch (const Iex::BaseExc& error) {
-    throw Error(std::string("EXR: ") + error.what());
+  const std::vector<Source> sources = sources_of(layers);
+  const int width = layers[0].plane.width, height = layers[0].plane.height;
+  std::vector<exr::Channel> channels;
+  std::size_t row_bytes = 0;
+  for (const Source& source : sources) {
+    channels.push_back(source.channel);
+    row_bytes += static_cast<std::size_t>(width) * exr::size_of(source.channel.type);
   }
+  if (row_bytes > kMostChunkBytes / exr::kRowsOfChunk) throw Error("EXR: the planes are too wide");
+  std::vector<std::vector<std::uint8_t>> chunks((static_cast<std::size_t>(height) + exr::kRowsOfChunk - 1) /
+                                                exr::kRowsOfChunk);
+  Executor(chunks.size() == 1 ? 1 : threads).for_each(chunks.size(), [&](std::size_t chunk, int) {
+    const std::size_t first = chunk * exr::kRowsOfChunk;
+    const std::size_t end = std::min(static_cast<std::size_t>(height), first + exr::kRowsOfChunk);
+    std::vector<std::uint8_t> raw((end - first) * row_bytes);
+    std::uint8_t* to = raw.data();
+    for (std::size_t y = first; y < end; ++y) {
+      for (const Source& source : sources) to = put_row(source, y, to);
+    }
+    chunks[chunk] = exr::compress(raw);
+  });
+  return exr::finish_file(exr::begin_file(channels, width, height), chunks);
 }
 
 }  // namespace facemap

@@ -88,6 +88,20 @@ TEST(Exr, ReadsBackWhatItWrote) {
   EXPECT_EQ(channel<float>(picture, "R")[1], -kInfinity);
 }
 
+TEST(Exr, BytesDoNotDependOnThreads) {
+  const Planes planes;
+  const Bytes bytes = encode_exr(planes.layers(), 1);
+  for (const int threads : {0, 2, 5}) EXPECT_EQ(encode_exr(planes.layers(), threads), bytes);
+}
+
+TEST(Exr, LongNamesAndNoiseAreKept) {
+  const TestPlane<float> noise(40, 20, 1);  // mantissas that do not compress
+  const std::string longest(255, 'n');
+  const ExrLayers layer{{longest}, noise.view()}, longer{{longest + "n"}, noise.view()};
+  EXPECT_EQ(channel<float>(decode_exr(encode_exr({&layer, 1}), "a.exr", kMaxPixels), longest), noise.values);
+  EXPECT_EQ(error_of([&] { encode_exr({&longer, 1}); }), "EXR: the name of a channel is too long");
+}
+
 TEST(Exr, HeaderSaysWhatTheFileHolds) {
   const Planes planes;
   std::string name = (std::filesystem::temp_directory_path() / "facemap-exr-XXXXXX").string();
