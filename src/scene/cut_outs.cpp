@@ -63,10 +63,13 @@ std::vector<AlphaMask> masks_of(const Scene& scene, const std::map<std::uint32_t
   return masks;
 }
 
+// A face without texture coordinates has the material's own opacity everywhere.
 Kind kind_of(const Scene& scene, const std::vector<AlphaMask>& masks, std::size_t face) {
-  const std::vector<std::uint32_t>& materials = scene.mesh().triangle_materials;
-  if (materials.empty() || materials[face] == kNoIndex) return Kind::Solid;
-  return masks[materials[face]].kind();
+  const std::uint32_t material = scene.mesh().triangle_materials[face];
+  if (material == kNoIndex) return Kind::Solid;
+  const Material& m = scene.materials()[material];
+  const bool has_image = image_of_opacity(m) != nullptr;
+  return has_image && !has_texture_coordinates(scene.mesh(), face) ? AlphaMask(m).kind() : masks[material].kind();
 }
 
 bool is_duplicate(const Scene& scene, std::size_t face) {
@@ -142,20 +145,20 @@ std::shared_ptr<const CutOuts> CutOuts::find(const Scene& scene, std::uint64_t m
   const std::map<std::uint32_t, Image> images = read_images(scene, max_texture_pixels, threads);
   std::vector<AlphaMask> masks = masks_of(scene, images);
 
-  std::vector<std::uint8_t> is_used(materials.size());
-  // Duplicates count: they are no longer ones beside a face of the other kind.
-  for (const std::uint32_t material : scene.mesh().triangle_materials) {
-    if (material != kNoIndex) is_used[material] = 1;
-  }
   std::vector<std::string> warnings;
-  bool has_holes = false;
   for (const auto& [number, image] : images) {
     if (!image.warning.empty()) warnings.push_back(image.warning);
   }
+  // Duplicates count: they are no longer ones beside a face of the other kind.
+  bool has_holes = false;
+  std::vector<std::uint8_t> is_gone(materials.size());
+  for (std::size_t face = 0; face < scene.face_count(); ++face) {
+    const Kind kind = kind_of(scene, masks, face);
+    if (kind == Kind::Gone) is_gone[scene.mesh().triangle_materials[face]] = 1;
+    has_holes = has_holes || kind != Kind::Solid;
+  }
   for (std::size_t i = 0; i < materials.size(); ++i) {
-    if (is_used[i] == 0 || masks[i].kind() == Kind::Solid) continue;
-    has_holes = true;
-    if (masks[i].kind() == Kind::Gone) warnings.push_back(warning_of(materials[i]));
+    if (is_gone[i] != 0) warnings.push_back(warning_of(materials[i]));
   }
   if (!has_holes && warnings.empty()) return nullptr;
   Sorted sorted(scene, masks);

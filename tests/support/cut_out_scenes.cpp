@@ -70,9 +70,13 @@ Model with_holes(const TestScene& test, Random& random) {
                                                      static_cast<float>(step)
                                                : glm::vec2(random.between(-2.0, 3.0), random.between(-2.0, 3.0)));
   }
+  // Some meshes are solid to begin with, so that closed parts stay closed.
+  const double solid_share = random.chance(0.3) ? 0.2 : random.unit();
+  const bool is_in_order = random.chance(0.5);
+  const auto count = static_cast<double>(mesh.face_count());
   for (std::size_t face = 0; face < mesh.face_count(); ++face) {
-    mesh.triangle_materials.push_back(random.chance(0.2) ? kNoIndex
-                                                         : static_cast<std::uint32_t>(random.below(kMaterials)));
+    const bool is_solid = is_in_order ? static_cast<double>(face) < solid_share * count : random.chance(solid_share);
+    mesh.triangle_materials.push_back(is_solid ? kNoIndex : static_cast<std::uint32_t>(random.below(kMaterials)));
     Corners corners;
     for (std::uint32_t& corner : corners) {
       corner = random.chance(0.05) ? kNoIndex : static_cast<std::uint32_t>(random.below(12));

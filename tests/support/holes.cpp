@@ -49,11 +49,9 @@ Holes::Holes(const facemap::Mesh& mesh, const std::vector<Material>& materials,
     Surface surface;
     const float cutoff = m.alpha == Material::Alpha::Mask ? m.alpha_cutoff : 0.5f;
     const bool has_map = m.opacity_map.is_used() || m.diffuse_map.is_used();
-    if (m.alpha == Material::Alpha::Opaque) {
-      surface.kind = Kind::Solid;
-    } else if (!has_map) {
-      surface.kind = m.opacity < cutoff ? Kind::Gone : Kind::Solid;
-    } else {
+    const bool is_gone = m.alpha != Material::Alpha::Opaque && m.opacity < cutoff;
+    surface.kind = surface.kind_without_places = is_gone ? Kind::Gone : Kind::Solid;
+    if (m.alpha != Material::Alpha::Opaque && has_map) {
       surface.use = m.opacity_map.is_used() ? m.opacity_map : m.diffuse_map;
       const facemap::DecodedImage image = facemap::decode_image(images[surface.use.image].bytes, "image", 1 << 20);
       surface.width = image.width;
@@ -86,7 +84,12 @@ Holes::Holes(const facemap::Mesh& mesh, const std::vector<Material>& materials,
 Holes::Kind Holes::kind(facemap::FaceId face) const {
   if (mesh_->triangle_materials.empty()) return Kind::Solid;
   const std::uint32_t material = mesh_->triangle_materials[face];
-  return material == facemap::kNoIndex ? Kind::Solid : surfaces_[material].kind;
+  if (material == facemap::kNoIndex) return Kind::Solid;
+  bool has_places = false;
+  for (int k = 0; k < 3 && !mesh_->texture_corners.empty(); ++k) {
+    has_places = has_places || mesh_->texture_corners[face][k] != facemap::kNoIndex;
+  }
+  return has_places ? surfaces_[material].kind : surfaces_[material].kind_without_places;
 }
 
 Point Holes::crossing(const std::array<Vector, 3>& corners, const Point& p, const Point& d) {
@@ -107,17 +110,15 @@ bool Holes::is_there(facemap::FaceId face, const Point& p, const Point& d) const
   const double sum = weights[0] + weights[1] + weights[2];
   for (double& weight : weights) weight = sum > 0 ? weight * (1 / sum) : 1.0 / 3;
 
-  double u = 0, up = 0;
-  if (!mesh_->texture_corners.empty()) {
-    double us[3], ups[3];
-    for (int k = 0; k < 3; ++k) {
-      const std::uint32_t corner = mesh_->texture_corners[face][k];
-      us[k] = corner == facemap::kNoIndex ? 0 : mesh_->texture_coordinates[corner].x;
-      ups[k] = corner == facemap::kNoIndex ? 0 : mesh_->texture_coordinates[corner].y;
-    }
-    u = us[0] * weights[0] + us[1] * weights[1] + us[2] * weights[2];
-    up = ups[0] * weights[0] + ups[1] * weights[1] + ups[2] * weights[2];
+  double us[3], ups[3];
+  for (int k = 0; k < 3; ++k) {
+    const std::uint32_t corner = mesh_->texture_corners[face][k];
+    const glm::vec2 place = corner == facemap::kNoIndex ? glm::vec2(0) : mesh_->texture_coordinates[corner];
+    us[k] = place.x;
+    ups[k] = place.y;
   }
+  const double u = us[0] * weights[0] + us[1] * weights[1] + us[2] * weights[2];
+  const double up = ups[0] * weights[0] + ups[1] * weights[1] + ups[2] * weights[2];
   const Surface& surface = surfaces_[mesh_->triangle_materials[face]];
   const TextureUse& use = surface.use;
   const double cosine = facemap::elementary::cos(use.rotation), sine = facemap::elementary::sin(use.rotation);

@@ -30,7 +30,7 @@ class Holes {
 
  private:
   struct Surface {
-    Kind kind = Kind::Solid;
+    Kind kind = Kind::Solid, kind_without_places = Kind::Solid;  // of faces with texture coordinates and without
     facemap::TextureUse use;
     int width = 0, height = 0;
     std::vector<bool> there;  // rows from the top

@@ -169,7 +169,7 @@ bool ParallelFace::is_far(const Corners& corners, const Vector& P, float toleran
 
 // ---- a mesh ---------------------------------------------------------------------------------------------
 
-ParallelView::ParallelView(const Oracle& oracle, const Vector& d) : d_(d) {
+ParallelView::ParallelView(const Oracle& oracle, const Vector& d) : oracle_(&oracle), d_(d) {
   const Mesh& mesh = oracle.mesh();
   for (const FaceId id : oracle.kept_faces()) {
     const Corners corners{mesh.vertex(id, 0), mesh.vertex(id, 1), mesh.vertex(id, 2)};
@@ -188,7 +188,7 @@ Hit ParallelView::nearest(const Vector& ray_origin) const {
   Hit hit;
   for (const KeptFace& f : faces_) {
     const ParallelFace::Meeting meeting = f.face.meet(O);
-    if (!meeting.is_met || meeting.where <= 0) continue;
+    if (!meeting.is_met || meeting.where <= 0 || !is_there(f.id, ray_origin)) continue;
     const int order = best == nullptr ? -1 : ParallelFace::compare(f.face, best->face, O);
     const bool is_tied = order == 0 || (order > 0 && hit.tied);
     // Faces come in order of id: among equals only one turned towards the camera displaces one turned away.
@@ -199,6 +199,10 @@ Hit ParallelView::nearest(const Vector& ray_origin) const {
     hit.tied = is_tied;
   }
   return hit;
+}
+
+bool ParallelView::is_there(FaceId face, const Vector& P) const {
+  return oracle_->is_there(face, {P.x, P.y, P.z}, {d_.x, d_.y, d_.z});
 }
 
 bool ParallelView::is_blocked(const Place& P, FaceId skipped) const {
@@ -212,7 +216,14 @@ bool ParallelView::is_lit(const SurfacePoint& point) const {
   const BigVector a = big(point.vertices[0]), u = big(point.vertices[1]) - a, v = big(point.vertices[2]) - a;
   const int side_of_camera = sgn(dot(cross(a - big(point.origin), u), v));
   const int side_of_light = ParallelFace(point.vertices, d_).side();
-  return side_of_camera * side_of_light > 0 && !is_blocked(place_of(point));
+  if (side_of_camera * side_of_light <= 0) return false;
+  const Place place = place_of(point);
+  const Vector &K = point.origin, &d = point.direction;
+  const Holes::Point seen = Holes::crossing(point.vertices, {K.x, K.y, K.z}, {d.x, d.y, d.z});
+  return std::none_of(faces_.begin(), faces_.end(), [&](const KeptFace& f) {
+    const ParallelFace::Meeting meeting = f.face.meet(place);
+    return meeting.is_met && meeting.where < 0 && oracle_->is_there(f.id, seen, {d_.x, d_.y, d_.z});
+  });
 }
 
 bool ParallelView::is_lit(const Vector& P, const facemap::PointLight::On& on) const {
@@ -220,7 +231,8 @@ bool ParallelView::is_lit(const Vector& P, const facemap::PointLight::On& on) co
   const Place place = found == faces_.end() ? place_of(P) : place_on(found->corners, P);
   return std::none_of(faces_.begin(), faces_.end(), [&](const KeptFace& f) {
     const ParallelFace::Meeting meeting = f.face.meet(place);
-    return f.id != on.face && meeting.is_met && meeting.where < 0 && ParallelFace::is_far(f.corners, P, on.tolerance);
+    return f.id != on.face && meeting.is_met && meeting.where < 0 && ParallelFace::is_far(f.corners, P, on.tolerance) &&
+           is_there(f.id, P);
   });
 }
 

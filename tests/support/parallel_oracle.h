@@ -68,12 +68,14 @@ class ParallelFace {
 /// A mesh in parallel light along d, or seen by parallel rays along it.
 class ParallelView {
  public:
+  /// The oracle must outlive it.
   ParallelView(const Oracle& oracle, const Vector& d);
 
   /// By id; faces of an oracle that are not kept are met by nothing.
   int side(FaceId face) const;
 
   Hit nearest(const Vector& ray_origin) const;
+  /// Without regard to holes.
   bool is_blocked(const Place& P, FaceId skipped = kNoFace) const;
   /// With facing: the camera and the light on the same side of the face.
   bool is_lit(const SurfacePoint& point) const;
@@ -85,6 +87,9 @@ class ParallelView {
     std::array<Vector, 3> corners;
     ParallelFace face;
   };
+  bool is_there(FaceId face, const Vector& P) const;
+
+  const Oracle* oracle_;
   Vector d_;
   std::vector<KeptFace> faces_;
 };
