@@ -46,9 +46,10 @@ struct BoxTaps {
 };
 
 /// The means over boxes of an image, half as wide and half as high (rounded down, at least 1): exactly the area that a
-/// texel of the result covers, so that the mean of the whole stays.
+/// texel of the result covers, so that the mean of the whole stays. `by_alpha`: colours count as much as there is of
+/// them, so that those of clear texels do not.
 template <class Texels>
-std::vector<float> half_size(const Texels& texels, int width, int height) {
+std::vector<float> half_size(const Texels& texels, int width, int height, bool by_alpha = false) {
   const int new_width = std::max(1, width / 2), new_height = std::max(1, height / 2);
   std::vector<BoxTaps> columns;
   columns.reserve(static_cast<std::size_t>(new_width));
@@ -59,13 +60,17 @@ std::vector<float> half_size(const Texels& texels, int width, int height) {
     const BoxTaps rows(y, height);
     for (int x = 0; x < new_width; ++x, out += 4) {
       const BoxTaps& taps = columns[static_cast<std::size_t>(x)];
+      float weighted[3] = {0, 0, 0};
       for (int j = 0; j < rows.count; ++j) {
         const std::size_t row = static_cast<std::size_t>(rows.first + j) * static_cast<std::size_t>(width);
         for (int i = 0; i < taps.count; ++i) {
           const float share = rows.shares[j] * taps.shares[i];
-          for (int k = 0; k < 4; ++k) out[k] += share * texels(row + static_cast<std::size_t>(taps.first + i), k);
+          const std::size_t texel = row + static_cast<std::size_t>(taps.first + i);
+          for (int k = 0; k < 4; ++k) out[k] += share * texels(texel, k);
+          for (int k = 0; by_alpha && k < 3; ++k) weighted[k] += share * texels(texel, 3) * texels(texel, k);
         }
       }
+      for (int k = 0; by_alpha && out[3] > 0 && k < 3; ++k) out[k] = weighted[k] / out[3];
     }
   }
   return result;

@@ -25,7 +25,7 @@ double chosen(const TextureValue& value, int channel) {
 
 MaterialTable::Entry::Entry(const TextureSet& textures, const Material& from)
     : material(&from),
-      diffuse(textures, from.diffuse_map, Encoding::Srgb),
+      diffuse(textures, from.diffuse_map, encoding_of_diffuse(from)),
       specular(textures, from.specular_map, Encoding::Srgb),
       emission(textures, from.emission_map, Encoding::Srgb),
       shininess(textures, from.shininess_map, Encoding::Linear),

@@ -25,10 +25,10 @@ double power_of_two(int exponent) { return std::bit_cast<double>(static_cast<std
 
 }  // namespace
 
-Texture::Texture(DecodedImage&& image, Encoding encoding)
-    : encoding_(encoding), linear_(linear_values(encoding == Encoding::Srgb)) {
+Texture::Texture(DecodedImage&& image, Encoding encoding) : encoding_(encoding), linear_(linear_values(is_colour())) {
   levels_.push_back({image.width, image.height, std::move(image.rgba)});
   add_levels();
+  if (encoding == Encoding::CutOuts && image.has_alpha) fill_clear_texels();
 }
 
 void Texture::add_levels() {
@@ -36,10 +36,31 @@ void Texture::add_levels() {
   while (levels_.back().width > 1 || levels_.back().height > 1) {
     const Level& last = levels_.back();
     Level next{std::max(1, last.width / 2), std::max(1, last.height / 2), {}};
-    values = levels_.size() == 1 ? half_size(ByteTexels{last.rgba.data(), linear_}, last.width, last.height)
-                                 : half_size(FloatTexels{values.data()}, last.width, last.height);
-    next.rgba = encoded(values, encoding_ == Encoding::Srgb);
+    const bool by_alpha = encoding_ == Encoding::CutOuts;
+    values = levels_.size() == 1 ? half_size(ByteTexels{last.rgba.data(), linear_}, last.width, last.height, by_alpha)
+                                 : half_size(FloatTexels{values.data()}, last.width, last.height, by_alpha);
+    next.rgba = encoded(values, is_colour());
     levels_.push_back(std::move(next));
+  }
+}
+
+// What is clear has any colour, often black, which would darken the edges of leaves: it takes that of the level above.
+void Texture::fill_clear_texels() {
+  for (std::size_t i = levels_.size() - 1; i-- > 0;) {
+    Level& level = levels_[i];
+    const Level& half = levels_[i + 1];
+    for (int y = 0; y < level.height; ++y) {
+      for (int x = 0; x < level.width; ++x) {
+        const auto place = [](const Level& of, int column, int row) {
+          return 4 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(of.width) +
+                      static_cast<std::size_t>(column));
+        };
+        std::uint8_t* const to = &level.rgba[place(level, x, y)];
+        if (to[3] != 0) continue;
+        const std::size_t from = place(half, std::min(x / 2, half.width - 1), std::min(y / 2, half.height - 1));
+        std::copy_n(&half.rgba[from], 3, to);
+      }
+    }
   }
 }
 

@@ -17,8 +17,9 @@ struct TextureValue {
 
 /// What the levels of an image hold.
 enum class Encoding {
-  Srgb,    ///< colours: averaged in linear light
-  Linear,  ///< numbers: roughness, normals, heights
+  Srgb,     ///< colours: averaged in linear light
+  Linear,   ///< numbers: roughness, normals, heights
+  CutOuts,  ///< colours as well, of which those of clear texels do not count: they take the colours around them
 };
 
 /// A decoded image and the same at half the size, and so on to a single texel. Its places run from (0, 0), its upper
@@ -53,6 +54,8 @@ class Texture {
   TextureValue nearest(const Level& level, const TexturePoint& place, const TextureUse& use) const;
   TextureValue texel(const Level& level, int x, int y) const;
   void add_levels();
+  void fill_clear_texels();
+  bool is_colour() const noexcept { return encoding_ != Encoding::Linear; }
 
   Encoding encoding_;
   const float* linear_;        // of the 256 values of a colour channel

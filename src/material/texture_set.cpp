@@ -13,7 +13,8 @@ TextureSet::TextureSet(const Scene& scene, std::uint64_t max_pixels, const Execu
     if (use.is_used()) textures_.try_emplace({use.image, encoding});
   };
   for (const Material& m : scene.materials()) {
-    for (const TextureUse* use : {&m.diffuse_map, &m.specular_map, &m.emission_map}) need(*use, Encoding::Srgb);
+    need(m.diffuse_map, encoding_of_diffuse(m));
+    for (const TextureUse* use : {&m.specular_map, &m.emission_map}) need(*use, Encoding::Srgb);
     for (const TextureUse* use : {&m.shininess_map, &m.metallic_map, &m.roughness_map, &m.normal_map, &m.bump_map}) {
       need(*use, Encoding::Linear);
     }

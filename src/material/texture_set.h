@@ -14,6 +14,12 @@
 
 namespace facemap {
 
+/// Of a material's diffuse map: whether its alpha is what cuts its surface.
+inline Encoding encoding_of_diffuse(const Material& material) {
+  const bool is_own = !material.opacity_map.is_used() || material.opacity_map.image == material.diffuse_map.image;
+  return material.alpha != Material::Alpha::Opaque && is_own ? Encoding::CutOuts : Encoding::Srgb;
+}
+
 /// The images that a scene's materials use, decoded, each once for each encoding that it is used in.
 class TextureSet {
  public:

@@ -164,6 +164,29 @@ TEST(Texture, AFootprintHasNoDirectionOfItsOwn) {
   EXPECT_DOUBLE_EQ(texture.texels_across({{0, 0}, {0, 0}}), 1);
 }
 
+// Green leaves on clear black: whatever the size of a sample, what is seen of them is green.
+TEST(Texture, ClearTexelsDoNotDarkenWhatIsCutOut) {
+  DecodedImage image;
+  image.width = image.height = 8;
+  image.has_alpha = true;
+  for (int i = 0; i < 64; ++i) {
+    const bool is_leaf = i % 8 < 3;
+    for (const int level : {0, is_leaf ? 255 : 0, 0, is_leaf ? 255 : 0}) {
+      image.rgba.push_back(static_cast<std::uint8_t>(level));
+    }
+  }
+  const Texture texture(std::move(image), Encoding::CutOuts);
+  const TextureUse use;
+  for (const double size : {0.01, 0.125, 0.3, 1.0}) {
+    for (double x = 0.05; x < 1; x += 0.1) {
+      const TextureValue value = texture.at({x, 0.5}, {{size, 0}, {0, size}}, use);
+      EXPECT_FLOAT_EQ(value.g, 1) << "at " << x << ", size " << size;
+      EXPECT_EQ(value.r, 0);
+    }
+  }
+  EXPECT_NEAR(texture.at({0.5, 0.5}, {{1, 0}, {0, 1}}, use).a, 3 / 8.0, 1 / 255.0);
+}
+
 TEST(TexturePlace, TurnsUTowardsVAndFlipsWhatGoesUp) {
   TextureUse use;
   TexturePoint p = TexturePlace(use).at({0.25, 0.25});
