@@ -4,6 +4,8 @@
 #include <facemap/point_light.h>
 #include <facemap/surface_point.h>
 
+#include <optional>
+
 namespace facemap {
 
 /// The ParallelMap of a directional light: answers whether a point is lit by parallel light along its direction, as a
@@ -34,13 +36,18 @@ class ParallelLight : public ParallelMap {
   /// point.
   bool is_blocked(const SurfacePoint& point, Counters* counters = nullptr) const;
 
- private:
-  // Of faces with holes or of the others.
-  template <class Point>
-  bool is_blocked_by(bool by_cut_outs, const Point& point, const DVector& place, std::uint32_t skip,
-                     Counters* counters) const;
+  /// The same for every point within `error` (world units) of `point` in each coordinate at once, face `skip` passed
+  /// over if it is not kNoFace: quick, and without an answer where they may differ, or where a hole may matter.
+  std::optional<bool> is_blocked_around(const DVector& point, double error, FaceId skip,
+                                        Counters* counters = nullptr) const;
 
-  // Of all; `place` is the point in double.
+ private:
+  struct Asked;
+  template <class IsThere, class BlocksExactly>
+  bool walk(const Parts& of_faces, const Scene& all, const Asked& asked, Counters* counters, const IsThere& is_there,
+            const BlocksExactly& blocks_exactly) const;
+
+  // Of all faces; `place` is the point in double.
   template <class Point>
   bool is_blocked(const Point& point, const DVector& place, std::uint32_t skip, Counters* counters) const;
 };

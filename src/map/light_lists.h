@@ -5,6 +5,7 @@
 #include <facemap/point_light.h>
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -29,6 +30,12 @@ class LightLists {
   template <class Point>
   bool is_lit(const Point& point, Counters* counters) const {
     return std::visit([&](const auto& map) { return map.get_lighten_up(point, counters); }, map_);
+  }
+
+  /// As ParallelLight has it; never an answer for a light with a place.
+  std::optional<bool> is_blocked_around(const DVector& point, double error, FaceId skip, Counters* counters) const {
+    const auto* along = std::get_if<ParallelLight>(&map_);
+    return along != nullptr ? along->is_blocked_around(point, error, skip, counters) : std::nullopt;
   }
 
   std::size_t memory_bytes() const {

@@ -14,15 +14,16 @@
 namespace facemap {
 namespace {
 
-// Points that are asked may be off by kPlaceError at so many times the scene's reach.
-constexpr double kFarthest = 8;
+// How far off the places of points that are asked may be, relative to the scene's reach: fractions have kPlaceError at
+// 2^13 times the reach, and a picture's points, held as whole numbers of a step of 2^-29 or so, are well within.
+constexpr double kAllowed = 0x1p-26;
 
 // The raster's least size, relative to the reach: a scene that d sees edge-on still has texels far above the errors.
-constexpr double kLeastSize = 0x1p-20;
+constexpr double kLeastSize = 0x1p-12;
 
 // Room in front of all faces and behind them, relative to the reach. Depths are compared with a relative margin of
-// Texels::kDepthMargin = 2^-18, which is 2^-26 of the reach then, and more than places are off.
-constexpr double kRoom = 0x1p-8;
+// Texels::kDepthMargin = 2^-18, which is 2^-21 of the reach then, and more than places are off.
+constexpr double kRoom = 0x1p-3;
 
 SpaceVector axes_of(const Scene& scene, const Vector& direction) {
   const double sum = double{direction.x} + direction.y + direction.z;
@@ -49,7 +50,7 @@ ParallelFrame::ParallelFrame(const Scene& scene, const Vector& direction, int te
   if (!(low.x <= high.x)) low = high = DVector(0);
   front_ = low.z - kRoom * reach_;
   back_ = high.z + kRoom * reach_;
-  allowed_ = kFarthest * kPlaceError * reach_;
+  allowed_ = kAllowed * reach_;
   // A rim of which no face is near the outer edge.
   const double rim = 4 * allowed_;
   const double x = std::max(high.x - low.x, kLeastSize * reach_) + 2 * rim;

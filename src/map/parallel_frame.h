@@ -65,7 +65,7 @@ class ParallelFrame {
   /// World units: places in texels are no farther off than this.
   double allowed_error() const { return allowed_; }
 
-  /// Map units behind a plane well in front of all faces: not negative for a face, 2^-9 at least.
+  /// Map units behind a plane well in front of all faces: not negative for a face, 1/8 at least.
   double depth(double z) const { return (z - front_) * scale_; }
 
   /// z of all faces lies between these two, and not near them.

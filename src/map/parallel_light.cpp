@@ -15,6 +15,9 @@ namespace {
 
 constexpr std::uint32_t kSkipNone = 0xffffffffu;
 
+// Of a cube's side: sqrt(3), rounded up.
+constexpr double kLongestDiagonal = 1.7320509;
+
 bool is_finite(const Vector& v) { return std::isfinite(double{v.x} + v.y + v.z); }
 
 ParallelFrame::Place place_in(const ParallelFrame& frame, const TruePoint& p) {
@@ -31,52 +34,91 @@ bool has_tolerance(const GivenPoint& p) { return p.tolerance > 0; }
 
 }  // namespace
 
-// Front to back. With a tolerance a face that the filter takes for a blocker, or one that is known by the cut alone,
-// may be within it: then no answer is taken from either.
-template <class Point>
-bool ParallelLight::is_blocked_by(bool by_cut_outs, const Point& point, const DVector& place_of_point,
-                                  std::uint32_t skip, Counters* counters) const {
-  const Parts& of_faces = by_cut_outs ? cut_parts() : parts();
-  const Scene& all = by_cut_outs ? cut_outs().cut() : solid_faces();
+/// A place, and which faces do not count there.
+struct ParallelLight::Asked {
+  ParallelFrame::Place place;
+  std::uint32_t skip = kSkipNone;
+  bool has_tolerance = false;
+};
+
+// The one walk through a list, front to back, by all who ask. blocks_exactly(face) is called where the filter leaves a
+// face open; is_there(face) says of one that blocks whether it has no hole at the crossing. With a tolerance a face
+// that the filter takes for a blocker, or one that is known by the cut alone, may be within it: then no answer is taken
+// from either.
+template <class IsThere, class BlocksExactly>
+bool ParallelLight::walk(const Parts& of_faces, const Scene& all, const Asked& asked, Counters* counters,
+                         const IsThere& is_there, const BlocksExactly& blocks_exactly) const {
   const ParallelFrame& frame = of_faces.frame;
   const ParallelFaces& faces = of_faces.faces;
-  const ParallelFrame::Place place = place_in(frame, point);
+  const ParallelFrame::Place& place = asked.place;
   Parts::Candidates candidates = of_faces.candidates(all, place);
-  const double depth = frame.depth(place.at.z);
-  const bool is_past_cut = depth > candidates.cut * (1.0 + Texels::kDepthMargin);
-  if (is_past_cut && !has_tolerance(point)) {
+  const bool is_past_cut = frame.depth(place.at.z) > candidates.cut * (1.0 + Texels::kDepthMargin);
+  if (is_past_cut && !asked.has_tolerance) {
     if (counters != nullptr) ++counters->by_float;
     return true;
   }
-  const auto is_there = [&](std::uint32_t id) {
-    return !by_cut_outs || cut_outs().is_there(id, place_of_point, DVector(direction()));
-  };
   const double reach = frame.depth(place.at.z + place.error) * (1 + Texels::kDepthMargin);
-  const auto asked = of_faces.asked(candidates, place);
+  const auto filtered = of_faces.asked(candidates, place);
   if (is_past_cut) candidates = {all.kept_faces(), candidates.cut, false};
   for (const std::uint32_t id : candidates.ids) {
     if (candidates.is_list && faces.nearest(id) > reach) return false;
-    if (id == skip) continue;
-    if (asked) {
-      const ParallelFaces::Sides sides = faces.sides(id, *asked);
+    if (id == asked.skip) continue;
+    if (filtered) {
+      const ParallelFaces::Sides sides = faces.sides(id, *filtered);
       const bool is_clear = sides.surely_outside || sides.beyond < 0;
-      const bool is_sure = is_clear || (sides.surely_inside && sides.beyond > 0 && !has_tolerance(point));
+      const bool is_sure = is_clear || (sides.surely_inside && sides.beyond > 0 && !asked.has_tolerance);
       if (is_sure && counters != nullptr) ++counters->by_float;
       if (is_clear) continue;
       if (is_sure && is_there(id)) return true;
       if (is_sure) continue;
     }
-    if (blocks_along(triangle_of(scene(), id), faces.side(id), direction(), point, counters) && is_there(id)) {
-      return true;
-    }
+    if (blocks_exactly(id, faces.side(id)) && is_there(id)) return true;
   }
   return false;
 }
 
 template <class Point>
 bool ParallelLight::is_blocked(const Point& point, const DVector& place, std::uint32_t skip, Counters* counters) const {
-  return is_blocked_by(false, point, place, skip, counters) ||
-         (has_cut_outs() && is_blocked_by(true, point, place, skip, counters));
+  const auto blocks_exactly = [&](std::uint32_t id, int side) {
+    return blocks_along(triangle_of(scene(), id), side, direction(), point, counters);
+  };
+  const Asked asked{place_in(parts().frame, point), skip, has_tolerance(point)};
+  const auto always = [](std::uint32_t) { return true; };
+  if (walk(parts(), solid_faces(), asked, counters, always, blocks_exactly)) return true;
+  if (!has_cut_outs()) return false;
+  const Asked asked_of_cut{place_in(cut_parts().frame, point), skip, has_tolerance(point)};
+  const auto is_there = [&](std::uint32_t id) { return cut_outs().is_there(id, place, DVector(direction())); };
+  return walk(cut_parts(), cut_outs().cut(), asked_of_cut, counters, is_there, blocks_exactly);
+}
+
+std::optional<bool> ParallelLight::is_blocked_around(const DVector& point, double error, FaceId skip,
+                                                     Counters* counters) const {
+  const auto asked_in = [&](const ParallelFrame& frame) {
+    Asked asked{frame.place(point - DVector(frame.origin()), ParallelFrame::kSharpError)};
+    asked.place.error += kLongestDiagonal * error;
+    if (skip != kNoFace) asked.skip = static_cast<std::uint32_t>(skip);
+    return asked;
+  };
+  const auto is_too_far = [](const ParallelFrame& frame, const Asked& asked) {
+    return frame.find(asked.place).where == ParallelFrame::Where::Anywhere;
+  };
+  bool is_open = false;
+  const auto leave_open = [&](std::uint32_t, int) {
+    is_open = true;
+    return false;
+  };
+  const Asked asked = asked_in(parts().frame);
+  if (is_too_far(parts().frame, asked)) return std::nullopt;
+  const auto always = [](std::uint32_t) { return true; };
+  if (walk(parts(), solid_faces(), asked, counters, always, leave_open)) return true;
+  if (has_cut_outs() && !is_open) {
+    const Asked asked_of_cut = asked_in(cut_parts().frame);
+    if (is_too_far(cut_parts().frame, asked_of_cut)) return std::nullopt;
+    const auto is_there = [&](std::uint32_t id) { return leave_open(id, 0); };
+    walk(cut_parts(), cut_outs().cut(), asked_of_cut, counters, is_there, leave_open);
+  }
+  if (is_open) return std::nullopt;
+  return false;
 }
 
 bool ParallelLight::is_blocked(const SurfacePoint& point, Counters* counters) const {

@@ -1,6 +1,7 @@
 #include "picture/lit_points.h"
 
 #include <mutex>
+#include <optional>
 
 #include "map/face_planes.h"
 #include "math/exact_sign.h"
@@ -125,29 +126,58 @@ void clear_blocked(const LightWork& work, const SampleGrid& grid, const MovedPoi
   if (work.bounds != nullptr) work.bounds->tidy();
 }
 
+namespace {
+
+// A point that asks the lists of one light after the other.
+class ListedPoint {
+ public:
+  ListedPoint(const Scene& scene, const SampleGrid& grid, const MovedPoints& moved, const AskedPoints& points,
+              std::uint32_t number)
+      : scene_(scene), grid_(grid), moved_(moved), points_(points), number_(number) {}
+
+  // First about where the point is held to be, which is quick; then, where that is open, about the point itself.
+  bool is_blocked(const LightLists& light, Counters& counters) {
+    const bool is_moved = points_.faces[number_] == kNoOwnFace;
+    const FaceId face = is_moved ? kNoFace : static_cast<FaceId>(points_.faces[number_]);
+    const auto known = light.is_blocked_around(place_of(points_, number_), error_of(points_, number_), face, &counters);
+    if (known) return *known;
+    return is_moved ? !light.is_lit(moved_.position_of(number_), &counters)
+                    : light.is_blocked(surface_point(), &counters);
+  }
+
+ private:
+  const SurfacePoint& surface_point() {
+    if (!surface_point_) {
+      const std::uint32_t face = points_.faces[number_];
+      const TruePoint p = true_point(scene_, grid_, points_.samples[number_], face);
+      surface_point_ = {p.K, p.d, p.face, static_cast<FaceId>(face), p.s};
+    }
+    return *surface_point_;
+  }
+
+  const Scene& scene_;
+  const SampleGrid& grid_;
+  const MovedPoints& moved_;
+  const AskedPoints& points_;
+  std::uint32_t number_;
+  std::optional<SurfacePoint> surface_point_;  // once it is needed
+};
+
+}  // namespace
+
 void clear_blocked_by_lists(const std::vector<const LightLists*>& lists, const Scene& scene, const SampleGrid& grid,
                             const Executor& executor, const MovedPoints& moved, SeenPoints& seen, Counters& counters) {
-  const AskedPoints& points = seen.points;
   std::mutex merging;
-  for_ranges(executor, points.size(), kFewestPoints, [&](std::size_t first, std::size_t last, int) {
+  for_ranges(executor, seen.points.size(), kFewestPoints, [&](std::size_t first, std::size_t last, int) {
     Counters own;
-    const auto clear_lights = [&](std::size_t i, const auto& is_blocked) {
+    for (std::size_t i = first; i < last; ++i) {
+      ListedPoint point(scene, grid, moved, seen.points, static_cast<std::uint32_t>(i));
       for (std::size_t l = 0; l < lists.size(); ++l) {
         std::uint8_t& mask = seen.masks[i * seen.stride + l / 8];
         const auto bit = static_cast<std::uint8_t>(1u << (l % 8));
-        if (lists[l] != nullptr && (mask & bit) != 0 && is_blocked(*lists[l]))
-          mask = static_cast<std::uint8_t>(mask & ~bit);
+        if (lists[l] == nullptr || (mask & bit) == 0) continue;
+        if (point.is_blocked(*lists[l], own)) mask = static_cast<std::uint8_t>(mask & ~bit);
       }
-    };
-    for (std::size_t i = first; i < last; ++i) {
-      if (points.faces[i] == kNoOwnFace) {
-        const Vector& position = moved.position_of(static_cast<std::uint32_t>(i));
-        clear_lights(i, [&](const LightLists& light) { return !light.is_lit(position, &own); });
-        continue;
-      }
-      const TruePoint p = true_point(scene, grid, points.samples[i], points.faces[i]);
-      const SurfacePoint point{p.K, p.d, p.face, static_cast<FaceId>(points.faces[i]), p.s};
-      clear_lights(i, [&](const LightLists& light) { return light.is_blocked(point, &own); });
     }
     const std::scoped_lock lock(merging);
     counters += own;
