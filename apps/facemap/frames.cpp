@@ -67,21 +67,23 @@ std::size_t WantedFrames::count() const {
   return turntable > 0 ? static_cast<std::size_t>(turntable) : views;
 }
 
-FrameRange WantedFrames::selected() const {
-  const std::size_t all = count();
+FrameRange WantedFrames::selected(std::size_t all) const {
   if (!range) return {0, all - 1};
   if (range->last < all) return *range;
   throw UsageError("--frames " + std::to_string(range->last) + ": the pictures are numbered 0 to " +
                    std::to_string(all - 1));
 }
 
-std::vector<View> complete_views(const Scene& scene, const WantedFrames& wanted, const Size& size) {
+std::vector<View> complete_views(const BoundingBall& ball, const Vector& up, const std::vector<WantedView>& wanted,
+                                 int turntable, const Size& size) {
+  if (turntable > 0 && wanted.size() > 1)
+    throw UsageError("--turntable turns one camera, and there are " + std::to_string(wanted.size()));
   std::vector<View> views;
-  for (WantedView& view : wanted.each()) {
+  for (WantedView view : wanted) {
     view.size = size;
-    views.push_back(complete_view(scene, view));
+    views.push_back(complete_view(ball, up, view));
   }
-  return wanted.turntable > 0 ? turntable(views[0], wanted.turntable) : views;
+  return turntable > 0 ? facemap::turntable(views[0], turntable) : views;
 }
 
 }  // namespace facemap::program

@@ -24,11 +24,13 @@ struct WantedFrames {
   /// How many pictures there are. Throws as above.
   std::size_t count() const;
 
-  /// Which of them are to be made. Throws as above, and if there are not so many.
-  FrameRange selected() const;
+  /// Which of `all` pictures are to be made. Throws UsageError if there are not so many.
+  FrameRange selected(std::size_t all) const;
 };
 
-/// All views, completed, for pictures of that size. A turntable's first is the given one.
-std::vector<View> complete_views(const Scene& scene, const WantedFrames& wanted, const Size& size);
+/// All views, completed, for pictures of that size. A turntable's first is the given one; with one there must be one
+/// view alone, else UsageError.
+std::vector<View> complete_views(const BoundingBall& ball, const Vector& up, const std::vector<WantedView>& wanted,
+                                 int turntable, const Size& size);
 
 }  // namespace facemap::program

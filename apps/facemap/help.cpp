@@ -60,6 +60,7 @@ std::string program_help(const std::vector<Command>& commands) {
       "The same command gives the same pixels on every machine.\n"
       "\n"
       "Usage: facemap COMMAND [options]\n"
+      "       facemap MODEL [options of facemap render]    a picture to show, with ground and lights\n"
       "\n"
       "Commands:\n";
   for (const Command& command : commands) {

@@ -83,7 +83,7 @@ Command info_command() {
   command.text =
       "Counts, bounds, faces that are left out of pictures and why, statements that were read over, warnings.\n"
       "Faces left out keep their numbers: nothing is renumbered.\n";
-  command.options = {{"MODEL", "", "", "the model: an OBJ, glTF, PLY or STL file",
+  command.options = {{"MODEL", "", "", "the model: an OBJ, glTF, PLY or STL file; - reads it from standard input",
                       into(arguments->model, [](const std::string& text) { return std::filesystem::path(text); })},
                      {"--names", "", "", "lists objects and materials with their numbers in planes of ids",
                       [arguments](const std::string&) { arguments->names = true; }}};

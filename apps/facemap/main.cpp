@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "exit_codes.h"
 #include "interrupt.h"
+#include "report.h"
 #include "usage_error.h"
 
 namespace facemap::program {
@@ -19,7 +20,7 @@ std::vector<Command> all_commands() {
 namespace {
 
 int complain(const char* reason, int exit_code) {
-  std::cerr << "facemap: " << reason << std::endl;
+  say_error(reason);
   return exit_code;
 }
 

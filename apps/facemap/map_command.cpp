@@ -78,7 +78,8 @@ Command map_command() {
       "middle is the angle. The ray through each texel's centre meets so many faces: white is none, darker is\n"
       "more; the legend below has the numbers. Pale blue is outside of 360 degrees.\n";
   command.options = {
-      {"MODEL", "", "", "the model: an OBJ, glTF, PLY or STL file", into(a.model, path)},
+      {"MODEL", "", "", "the model: an OBJ, glTF, PLY or STL file; - reads it from standard input",
+       into(a.model, path)},
       {"--at", "X,Y,Z", "", "the point: a light's or a camera's place", into(a.at, parse_vector)},
       {"-o,--output", "FILE", "", "the picture: .png, .jpg, .exr, .pfm or .npy; - writes PNG to standard output",
        into(a.output, path)},

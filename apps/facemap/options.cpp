@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <map>
 
 #include "completions.h"
@@ -43,22 +44,6 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
-/// "; did you mean X?" for the known word nearest to `word`, or nothing if none is near.
-std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
-  constexpr std::size_t kNear = 3;
-  std::size_t best = kNear + 1;
-  std::string nearest;
-  for (const std::string& candidate : known) {
-    const bool is_beginning = word.size() > 3 && candidate.starts_with(word);
-    const std::size_t distance = is_beginning ? 0 : edit_distance(word, candidate);
-    if (distance < best && distance < candidate.size() / 2) {
-      best = distance;
-      nearest = candidate;
-    }
-  }
-  return nearest.empty() ? "" : "; did you mean " + nearest + "?";
-}
-
 std::vector<std::string> long_flags(const Command& command) {
   std::vector<std::string> flags{"--help"};
   for (const Option& option : command.options) {
@@ -75,14 +60,18 @@ std::vector<std::string> long_flags(const Command& command) {
   throw UsageError("unknown option " + flag + suggestion(flag, long_flags(command)) + hint);
 }
 
+/// Whether the first word is a model's name rather than a command's: then it is drawn in the studio.
+bool names_model(const std::string& word) {
+  if (word == "-") return true;
+  if (word.starts_with('-')) return false;
+  std::error_code ignored;
+  return word.find_first_of("./") != std::string::npos || std::filesystem::is_regular_file(word, ignored);
+}
+
 [[noreturn]] void refuse_command(const std::vector<Command>& commands, const std::string& word) {
   std::vector<std::string> names;
   for (const Command& command : commands) names.push_back(command.name);
   std::string hint = suggestion(word, names);
-  constexpr std::string_view kModels[] = {".obj", ".gltf", ".glb", ".ply", ".stl"};
-  const bool is_model = std::any_of(std::begin(kModels), std::end(kModels),
-                                    [&](std::string_view extension) { return word.ends_with(extension); });
-  if (is_model) hint = "; did you mean facemap render " + word + "?";
   throw UsageError("unknown " + std::string(word.starts_with('-') ? "option " : "command ") + word + hint +
                    "\nTry 'facemap --help'.");
 }
@@ -128,7 +117,32 @@ std::string completion_for(const std::vector<std::string>& words, const std::vec
   throw UsageError("--completion: name a shell: bash, zsh or fish");
 }
 
+/// facemap MODEL ... is facemap render MODEL --studio ...
+const Command* parse_studio(const std::vector<Command>& commands, int argc, const char* const* argv) {
+  const auto render =
+      std::find_if(commands.begin(), commands.end(), [](const Command& command) { return command.name == "render"; });
+  std::vector<const char*> words(argv, argv + argc);
+  words.insert(words.begin() + 2, "--studio");
+  parse_options(*render, static_cast<int>(words.size()), words.data());
+  return &*render;
+}
+
 }  // namespace
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
+  constexpr std::size_t kNear = 3;
+  std::size_t best = kNear + 1;
+  std::string nearest;
+  for (const std::string& candidate : known) {
+    const bool is_beginning = word.size() > 3 && candidate.starts_with(word);
+    const std::size_t distance = is_beginning ? 0 : edit_distance(word, candidate);
+    if (distance < best && distance < candidate.size() / 2) {
+      best = distance;
+      nearest = candidate;
+    }
+  }
+  return nearest.empty() ? "" : "; did you mean " + nearest + "?";
+}
 
 std::string name_of(const Option& option) { return option.flags.substr(option.flags.find(',') + 1); }
 
@@ -149,6 +163,7 @@ const Command* parse_command_line(const std::vector<Command>& commands, int argc
   } else {
     const auto command =
         std::find_if(commands.begin(), commands.end(), [&](const Command& c) { return c.name == words[0]; });
+    if (command == commands.end() && names_model(words[0])) return parse_studio(commands, argc, argv);
     if (command == commands.end()) refuse_command(commands, words[0]);
     if (std::none_of(words.begin() + 1, words.end(), asks_for_help)) {
       parse_options(*command, argc - 1, argv + 1);

@@ -43,6 +43,9 @@ std::function<void(const std::string&)> into(Field& field, Parse parse) {
   return [&field, parse](const std::string& text) { field = parse(text); };
 }
 
+/// "; did you mean X?" for the known word nearest to `word`, or nothing if none is near.
+std::string suggestion(const std::string& word, const std::vector<std::string>& known);
+
 /// Reads the words after the program's name, sets the options of the command that they name and returns it;
 /// nullptr if they asked for help, the version or the like, which is then in `answer`. Throws UsageError.
 const Command* parse_command_line(const std::vector<Command>& commands, int argc, const char* const* argv,

@@ -106,11 +106,10 @@ std::vector<Option> output_options(WantedOutput& a, std::optional<FrameRange>& r
   };
 }
 
-std::vector<FrameFiles> check_output_files(const WantedOutput& output, const fs::path& model,
-                                           const WantedFrames& wanted) {
+std::vector<FrameFiles> check_output_files(const WantedOutput& output, const fs::path& model, const FrameRange& range,
+                                           std::size_t all) {
   if (output.files.picture.empty()) check_picture_output(output.files.picture, model);
-  const FrameRange range = wanted.selected();
-  const auto names = [&](const fs::path& pattern) { return frame_files(pattern, model, wanted.count(), range); };
+  const auto names = [&](const fs::path& pattern) { return frame_files(pattern, model, all, range); };
   std::vector<FrameFiles> frames;
   KnownFiles known;
   for (const fs::path& picture : names(output.files.picture)) {

@@ -23,9 +23,9 @@ struct WantedOutput {
 /// The rows of the table but for -o; they set `output` and `range`, which must outlive them.
 std::vector<Option> output_options(WantedOutput& output, std::optional<FrameRange>& range);
 
-/// The files of each frame that is to be made, known to be writable, to be different ones and to have formats that hold
-/// what they shall. Throws UsageError or Error.
+/// The files of each frame of `range`, of `all` that there are, known to be writable, to be different ones and to have
+/// formats that hold what they shall. Throws UsageError or Error.
 std::vector<FrameFiles> check_output_files(const WantedOutput& output, const std::filesystem::path& model,
-                                           const WantedFrames& frames);
+                                           const FrameRange& range, std::size_t all);
 
 }  // namespace facemap::program

@@ -13,6 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMaxFrames = 100'000;
+constexpr long long kMostPixels = 1LL << 30;  ///< of 32768 x 32768; --max-pixels may allow fewer
 
 template <typename Value, typename Parse>
 std::function<void(const std::string&)> append_to(std::vector<Value>& values, Parse parse) {
@@ -42,6 +43,8 @@ Option one_of(const std::string& flags, const std::string& default_text, const s
 
 fs::path parse_path(const std::string& text) { return text; }
 
+}  // namespace
+
 std::vector<Option> view_options(RenderArguments& a) {
   return {
       {"--camera", "X,Y,Z", "made up", "where the camera stands; given several times: a picture from each place",
@@ -50,8 +53,11 @@ std::vector<Option> view_options(RenderArguments& a) {
        "the point in the middle of the picture; this and the next two: once for all cameras, or once for each, in "
        "their order",
        append_to(a.frames.look_ats, parse_vector), true},
-      {"--up", "X,Y,Z", "0,1,0", "the direction that points up in the picture", append_to(a.frames.ups, parse_vector),
-       true},
+      {"--up", "y|z|X,Y,Z", "the file's",
+       "the direction that points up: in the picture, for made-up views and lights, the sky and the ground. A glTF "
+       "file "
+       "says y, STL files are taken as z, all others as y",
+       append_to(a.frames.ups, parse_direction), true},
       {"--field-angle", "DEG", "50",
        "the field of view in degrees: across the shorter side (surface, up to 360) or from bottom to top (plane, "
        "below 180)",
@@ -66,6 +72,8 @@ std::vector<Option> view_options(RenderArguments& a) {
        into(a.frames.turntable, [](const std::string& text) { return parse_whole_number(text, 1, kMaxFrames); })},
   };
 }
+
+namespace {
 
 std::vector<Option> light_options(RenderArguments& a) {
   return {
@@ -161,21 +169,25 @@ void check_picture(const RenderArguments& arguments) {
 
 std::vector<Option> render_options(RenderArguments& a) {
   std::vector<Option> options = {
-      {"MODEL", "", "", "the model: an OBJ, glTF, PLY or STL file", into(a.model, parse_path)},
+      {"MODEL", "", "", "an OBJ, glTF, PLY or STL file, or a scene file (TOML); - reads it from standard input",
+       into(a.model, parse_path)},
       {"-o,--output", "FILE", "",
        "the picture: .png, .jpg, .exr, .pfm or .npy; - writes it to standard output; {model} in the name stands for "
        "the model's name, {n} for the picture's number from 0, {n:04} for the same with four digits",
        into(a.output.files.picture, parse_path)},
-      {"--size", "WxH", "1024x1024", "width and height in pixels", into(a.wanted_size, parse_size)},
+      {"--size", "WxH", "1024x1024", "width and height in pixels",
+       into(a.wanted_size, [](const std::string& text) { return parse_size_within(text, kMostPixels); })},
   };
   append(options, part_options(a.part));
   append(options, view_options(a));
   append(options, lens_options(a.frames.lens));
   append(options, light_options(a));
+  append(options, scene_options(a));
   append(options, quality_options(a));
   append(options, display_options(a.output.format.display));
   append(options, output_options(a.output, a.frames.range));
   append(options, work_options(a));
+  append(options, limit_options(a));
   append(options, {
                       {"--stats",
                        "FORMAT",
@@ -188,17 +200,40 @@ std::vector<Option> render_options(RenderArguments& a) {
                        {"json", "text"}},
                       {"-q,--quiet", "", "", "no warnings, no made-up flags, no progress",
                        [&a](const std::string&) { a.quiet = true; }},
+                      {"-v,--verbose", "", "", "says what was read, what was made up, and how long each phase took",
+                       [&a](const std::string&) { a.verbose = true; }},
+                      {"--log-json", "", "",
+                       "messages as JSON objects, one a line on standard error: \"event\" is warning, note, progress, "
+                       "done or error",
+                       [&a](const std::string&) { a.log_json = true; }},
                   });
   return options;
 }
 
-std::vector<FrameFiles> check_files(const RenderArguments& arguments) {
+RenderArguments arguments_of(const Words& words) {
+  RenderArguments arguments;
+  set_options(render_options(arguments), words);
+  arguments.limits.threads = arguments.options.threads;
+  return arguments;
+}
+
+void check_limits(const RenderArguments& arguments) {
+  const Size size = arguments.size();
+  if (static_cast<long long>(size.width) * size.height > arguments.max_pixels) {
+    throw UsageError("--size: '" + std::to_string(size.width) + "x" + std::to_string(size.height) +
+                     "' is not a size this program takes: " + std::to_string(arguments.max_pixels) +
+                     " pixels at most (--max-pixels)");
+  }
+  if (arguments.quiet && arguments.verbose) throw UsageError("--quiet and --verbose are given");
+}
+
+std::vector<FrameFiles> check_files(const RenderArguments& arguments, std::size_t all) {
   check_picture(arguments);
   if (arguments.model.empty()) throw UsageError("no model is given");
   if (is_standard_output(arguments.output.files.picture) && arguments.stats != StatsFormat::None) {
     throw UsageError("-o - and --stats would both write to standard output");
   }
-  return check_output_files(arguments.output, arguments.model, arguments.frames);
+  return check_output_files(arguments.output, arguments.model, arguments.frames.selected(all), all);
 }
 
 Renderer::Options renderer_options(const RenderArguments& arguments) {

@@ -14,6 +14,7 @@
 #include "output.h"
 #include "pending_files.h"
 #include "progress_line.h"
+#include "report.h"
 #include "text_values.h"
 #include "usage_error.h"
 
@@ -80,7 +81,9 @@ Image picture_of(const fs::path& model, const SheetArguments& arguments) {
   options.background = Color::from_24_bit(0xd0d8e0);
   View view;
   view.projection = ProjectionKind::Plane;
-  return Renderer(scene, make_up_view(scene, view), make_up_lights(scene), options).render();
+  const BoundingBall ball{scene.centre(), scene.bounding_radius()};
+  view.up = scene.up().value_or(view.up);
+  return Renderer(scene, make_up_view(ball, view.up, view), make_up_lights(ball, view.up), options).render();
 }
 
 int draw_sheet(const SheetArguments& arguments) {
@@ -93,11 +96,12 @@ int draw_sheet(const SheetArguments& arguments) {
   const int columns = arguments.columns > 0 ? arguments.columns : columns_for(models.size(), arguments.size);
   ContactSheet sheet(models.size(), columns, arguments.size.width, arguments.size.height);
 
-  ProgressLine line(!arguments.quiet);
+  set_report_style({arguments.quiet});
+  ProgressLine line(models.size());
   std::ostream& list = is_standard_output(arguments.output) ? std::cerr : std::cout;
   std::size_t refused = 0, flagged = 0;
   for (std::size_t i = 0; i < models.size(); ++i) {
-    line.show(static_cast<double>(i) / static_cast<double>(models.size()), models[i].filename().c_str());
+    line.show(static_cast<double>(i) / static_cast<double>(models.size()), models[i].filename().c_str(), i);
     std::string verdict;
     try {
       const Image picture = picture_of(models[i], arguments);

@@ -145,6 +145,20 @@ Vector parse_vector(const std::string& text) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
+Vector parse_direction(const std::string& text) {
+  const bool has_sign = text.size() == 2 && (text[0] == '-' || text[0] == '+');
+  const float length = text.starts_with('-') ? -1.0f : 1.0f;
+  const std::string axis = has_sign ? text.substr(1) : text;
+  if (axis == "x") return {length, 0, 0};
+  if (axis == "y") return {0, length, 0};
+  if (axis == "z") return {0, 0, length};
+  const std::vector<float> numbers = read_numbers(text);
+  if (numbers.size() != 3) refuse(text, "a direction: x, y, z, -x, -y, -z or three numbers x,y,z");
+  const Vector direction(numbers[0], numbers[1], numbers[2]);
+  if (direction == Vector(0)) refuse(text, "a direction");
+  return direction;
+}
+
 Color parse_color(const std::string& text) {
   if (text.starts_with('#')) {
     std::uint32_t rgb = 0;
@@ -158,14 +172,29 @@ Color parse_color(const std::string& text) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-Size parse_size(const std::string& text) {
+std::pair<Color, Color> parse_two_colors(const std::string& text) {
+  const std::vector<std::string> parts = split(text, ',');
+  for (std::size_t first = 1; first < parts.size(); ++first) {
+    const std::size_t second = parts.size() - first;
+    const bool is_first = first == (parts[0].starts_with('#') ? 1 : 3);
+    if (!is_first || second != (parts[first].starts_with('#') ? 1u : 3u)) continue;
+    std::size_t comma = std::string::npos;
+    for (std::size_t i = 0; i < first; ++i) comma = text.find(',', comma + 1);
+    return {parse_color(text.substr(0, comma)), parse_color(text.substr(comma + 1))};
+  }
+  refuse(text, "two colours, each three linear values r,g,b or #rrggbb");
+}
+
+Size parse_size(const std::string& text) { return parse_size_within(text, kMaxPixels); }
+
+Size parse_size_within(const std::string& text, long long max_pixels) {
   Size size;
   if (!read_pair(text, size.width, size.height)) refuse(text, "a size in pixels such as 1024x768");
   for (const int side : {size.width, size.height}) {
     if (side < 1 || side > kMaxSide) refuse(text, "a size: each side is 1 to " + std::to_string(kMaxSide) + " pixels");
   }
-  if (static_cast<long long>(size.width) * size.height > kMaxPixels) {
-    refuse(text, "a size this program takes: " + std::to_string(kMaxPixels) + " pixels at most");
+  if (static_cast<long long>(size.width) * size.height > max_pixels) {
+    refuse(text, "a size this program takes: " + std::to_string(max_pixels) + " pixels at most");
   }
   return size;
 }
@@ -202,6 +231,8 @@ std::string text_of(double value) { return shortest(value); }
 std::string text_of(const Vector& vector) {
   return text_of(vector.x) + "," + text_of(vector.y) + "," + text_of(vector.z);
 }
+
+std::string text_of(const Color& color) { return text_of(Vector(color.r, color.g, color.b)); }
 
 std::string degrees_text(double radians) {
   // A double carries 15 digits; two fewer hide the rounding of the two conversions.

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace facemap::program {
@@ -35,16 +36,23 @@ std::vector<double> parse_numbers(const std::string& text);
 /// "x,y,z".
 Vector parse_vector(const std::string& text);
 
+/// "x", "-y", "z" and the like, or "x,y,z".
+Vector parse_direction(const std::string& text);
+
 /// "r,g,b", linear, or "#rrggbb", sRGB.
 Color parse_color(const std::string& text);
 
-/// "WxH", pixels. Refuses more than kMaxPixels.
+/// Two colours, one after the other.
+std::pair<Color, Color> parse_two_colors(const std::string& text);
+
+/// "WxH", pixels. Refuses more than kMaxPixels, or another limit.
 struct Size {
   int width = 1024;
   int height = 1024;
 };
 inline constexpr long long kMaxPixels = 1LL << 28;  ///< 16384 x 16384: pixels and maps of about 10 GB
 Size parse_size(const std::string& text);
+Size parse_size_within(const std::string& text, long long max_pixels);
 
 /// "4x4" or "4*4": a grid; "1": one sample; "edges": one sample, 4x4 at edges; "edges:N": N x N at edges.
 struct Samples {
@@ -60,6 +68,7 @@ int parse_choice(const std::string& text, const std::vector<std::string>& choice
 std::string text_of(float value);
 std::string text_of(double value);
 std::string text_of(const Vector& vector);
+std::string text_of(const Color& color);
 
 /// Degrees, shortest text of a double.
 std::string degrees_text(double radians);

@@ -16,15 +16,15 @@ bool is_nearly_parallel(const Vector& a, const Vector& b) {
 
 }  // namespace
 
-View complete_view(const Scene& scene, const WantedView& wanted) {
+View complete_view(const BoundingBall& ball, const Vector& up, const WantedView& wanted) {
   View view;
   view.field_angle = wanted.field_angle;
   view.projection = wanted.projection;
   set_lens(wanted.lens, wanted.size, view);
-  if (wanted.up) view.up = *wanted.up;
-  const Vector centre(scene.centre());
-  const View made_up = make_up_view(scene, view);
-  view.height = wanted.lens.height.value_or(made_up.height);
+  view.up = wanted.up.value_or(up);
+  const Vector centre(ball.centre);
+  const View made_up = make_up_view(ball, up, view);
+  view.height = wanted.lens.height.value_or(static_cast<float>(made_up.height));  // as it will be printed
   if (wanted.camera) {
     view.position = *wanted.camera;
     view.look_at = wanted.look_at.value_or(centre);
@@ -33,7 +33,7 @@ View complete_view(const Scene& scene, const WantedView& wanted) {
     view.look_at = wanted.look_at.value_or(made_up.look_at);
     view.position = made_up.position + (view.look_at - made_up.look_at);
   }
-  if (!wanted.up && is_nearly_parallel(view.look_at - view.position, view.up)) view.up = {0, 0, 1};
+  if (!wanted.up && is_nearly_parallel(view.look_at - view.position, view.up)) view.up = Vector(up.z, up.x, up.y);
   return view;
 }
 

@@ -21,10 +21,10 @@ struct WantedView {
   bool is_complete() const { return camera && look_at && (!lens.is(LensName::Orthographic) || lens.height); }
 };
 
-/// A whole view. A camera alone looks at the scene's centre; a point to look at alone is seen from the
-/// direction that a made-up view has; neither: the whole scene is in sight. Without `up`, +y, or +z for a sight along
-/// it.
-View complete_view(const Scene& scene, const WantedView& wanted);
+/// A whole view of what is in `ball`. A camera alone looks at its centre; a point to look at alone is seen from the
+/// direction that a made-up view has; neither: the whole ball is in sight. Without an up of its own it has the scene's,
+/// or for a sight along that another.
+View complete_view(const BoundingBall& ball, const Vector& up, const WantedView& wanted);
 
 /// As flags that give the same values again.
 std::string flags_of(const View& view);

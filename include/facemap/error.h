@@ -12,7 +12,8 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A file that cannot be read. what() is "file:line: reason", or "file: reason" where no line is to blame.
+/// A file that cannot be read. what() is "file:line: reason", "file:line:column: reason" where the column is known, or
+/// "file: reason" where no line is to blame.
 class LoadError : public Error {
  public:
   /// One value per cause, so that a caller can ask for the cause and not for the wording.
@@ -32,18 +33,20 @@ class LoadError : public Error {
     NotAllowed,   ///< names a file outside the model's folder
   };
 
-  /// `line` counts from 1; 0 means that no line is to blame.
-  LoadError(Cause cause, const std::string& file, std::int64_t line, const std::string& reason);
+  /// `line` and `column` count from 1; 0 means that no line is to blame, or that the column is not known.
+  LoadError(Cause cause, const std::string& file, std::int64_t line, const std::string& reason,
+            std::int64_t column = 0);
 
   Cause cause() const noexcept { return cause_; }
   const std::string& file() const noexcept { return file_; }
   std::int64_t line() const noexcept { return line_; }
+  std::int64_t column() const noexcept { return column_; }
   const std::string& reason() const noexcept { return reason_; }
 
  private:
   Cause cause_;
   std::string file_;
-  std::int64_t line_;
+  std::int64_t line_, column_;
   std::string reason_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <facemap/affine.h>
 #include <facemap/atomic_file.h>
 #include <facemap/camera.h>
 #include <facemap/color.h>
@@ -25,7 +26,9 @@
 #include <facemap/raster.h>
 #include <facemap/renderer.h>
 #include <facemap/scene.h>
+#include <facemap/scene_file.h>
 #include <facemap/space_vector.h>
+#include <facemap/studio.h>
 #include <facemap/surface_point.h>
 #include <facemap/texture.h>
 #include <facemap/turntable.h>

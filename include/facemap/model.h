@@ -1,13 +1,16 @@
 #pragma once
 
+#include <facemap/affine.h>
 #include <facemap/light.h>
 #include <facemap/material.h>
 #include <facemap/mesh.h>
 #include <facemap/texture.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace facemap {
@@ -31,8 +34,8 @@ struct Model {
   std::vector<Light> lights;
   std::vector<ModelCamera> cameras;
   std::vector<std::string> objects;             ///< names
-  std::vector<std::uint32_t> triangle_objects;  ///< one a triangle into `objects`, or empty
-  std::optional<Vector> up;                     ///< if the file's format states it
+  std::vector<std::uint32_t> triangle_objects;  ///< one a triangle into `objects` (kNoIndex: none), or empty
+  std::optional<Vector> up;                     ///< if the file's format states it; STL: z, by custom
   std::vector<std::string> warnings;            ///< "file:line: text" or "file: text", one a cause
 };
 
@@ -43,5 +46,31 @@ struct ModelLimits {
   int threads = 0;                                   ///< that may read; 0: as many as the process may run at once
   bool allow_outside = false;                        ///< files that it names may lie outside its folder
 };
+
+/// Reads a model's file: OBJ, glTF, PLY or STL, by its content, or by its name where that does not say. Throws
+/// LoadError.
+Model load_model(const std::filesystem::path& path, const ModelLimits& limits = {});
+
+/// The same of bytes in memory; `name` stands in messages for the file. Files that they name are looked up in
+/// `directory`, or nowhere if it is empty.
+Model parse_model(std::string_view bytes, const std::string& name, const std::filesystem::path& directory = {},
+                  const ModelLimits& limits = {});
+
+/// The model moved, turned, scaled or sheared: positions rounded once from doubles, normals by the inverse transposed,
+/// of unit length. What is mirrored keeps its fronts: the order of corners is turned. Lights and cameras go along;
+/// where the transform enlarges, by the mean of its three axes, lights that fall off shine farther, so that the same
+/// picture is seen. Throws Error if the transform is not finite or flattens the model.
+Model transformed(Model model, const Affine& transform);
+
+/// Adds another model: its triangles come behind those of `model`, its materials, images and objects get the numbers
+/// behind those that are there. The first model that states an up gives it. Throws Error if the sum is too large.
+void append(Model& model, Model other);
+
+/// The ball about the middle of the box of all vertices that triangles use.
+struct BoundingBall {
+  DVector centre{0};
+  double radius = 0;
+};
+BoundingBall bounding_ball(const Mesh& mesh);
 
 }  // namespace facemap

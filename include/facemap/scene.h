@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,20 +40,24 @@ class Scene {
   /// no images: the materials' maps are left out.
   explicit Scene(Mesh mesh, std::vector<Material> materials = {}, int threads = 0);
 
-  /// Takes a model's mesh, materials, images and warnings. Throws Error as above, and if a material names an image
+  /// Takes all of a model but its objects. Throws Error as above, and if a material names an image
   /// that is not there.
   explicit Scene(Model model, int threads = 0);
 
   /// Reads a model file: OBJ, glTF, PLY or STL, by its content, or by its name where that does not say. Throws
   /// LoadError.
   static Scene load(const std::filesystem::path& path, int threads = 0);
+  static Scene load(const std::filesystem::path& path, const ModelLimits& limits);
 
   const Mesh& mesh() const noexcept { return shared_->mesh; }
   const std::vector<Material>& materials() const noexcept { return shared_->materials; }
   const std::vector<TextureImage>& images() const noexcept { return shared_->images; }  ///< of materials, not decoded
   const std::vector<std::string>& objects() const noexcept {
     return shared_->objects;
-  }  ///< names of the model's objects
+  }                                                                              ///< names of the model's objects
+  const std::vector<Light>& lights() const noexcept { return shared_->lights; }  ///< of the file
+  const std::vector<ModelCamera>& cameras() const noexcept { return shared_->cameras; }  ///< of the file
+  const std::optional<Vector>& up() const noexcept { return shared_->up; }               ///< as Model::up
 
   /// The index into objects() of what `face` is part of; kNoIndex: nothing.
   std::uint32_t object_of(std::size_t face) const;
@@ -98,6 +103,9 @@ class Scene {
     std::vector<TextureImage> images;
     std::vector<std::string> objects;
     std::vector<ObjectRun> object_runs;
+    std::vector<Light> lights;
+    std::vector<ModelCamera> cameras;
+    std::optional<Vector> up;
     OBJ::Report report;
     OddFaces odd;
     std::vector<std::uint32_t> welded;

@@ -4,6 +4,8 @@
 #include <png.h>
 #include <zlib.h>
 
+#include <iterator>
+
 namespace facemap::png {
 
 void append_32(std::vector<std::uint8_t>& bytes, std::uint32_t value) {
@@ -44,6 +46,8 @@ std::vector<std::uint8_t> begin_file(int width, int height, int depth, int color
                                PNG_COMPRESSION_TYPE_BASE, PNG_FILTER_TYPE_BASE, PNG_INTERLACE_NONE});
   std::vector<std::uint8_t> bytes(std::begin(kSignature), std::end(kSignature));
   append_chunk(bytes, "IHDR", header);
+  constexpr char kSoftware[] = "Software\0FaceMap";  // by this the program knows pictures of its own
+  append_chunk(bytes, "tEXt", {std::begin(kSoftware), std::end(kSoftware) - 1});
   return bytes;
 }
 

@@ -1,3 +1,4 @@
+#include <facemap/affine.h>
 #include <facemap/error.h>
 #include <facemap/renderer.h>
 
@@ -40,27 +41,35 @@ double half_field(const Lens& lens) {
 }  // namespace
 
 View make_up_view(const Scene& scene, const View& wanted) {
+  return make_up_view(BoundingBall{scene.centre(), scene.bounding_radius()}, wanted.up, wanted);
+}
+
+View make_up_view(const BoundingBall& ball, const Vector& up, const View& wanted) {
   const FloatingPointMode mode;
   View view = wanted;
-  const DVector from(0.5, 0.6, 1);
-  const double radius = scene.bounding_radius();
+  const DVector from = Affine::turning({0, 1, 0}, DVector(up)).direction({0.5, 0.6, 1});
+  const double radius = ball.radius;
   const double half = wanted.lens ? half_field(*wanted.lens) : std::min(wanted.field_angle / 2, elementary::kPi / 2);
   view.height = 2 * radius;
   const double distance =
       wanted.is_parallel ? 2 * radius : std::max(radius / elementary::sin(half), radius * (1 + kClosestApproach));
   const double scale = distance / std::sqrt(from.x * from.x + from.y * from.y + from.z * from.z);
-  view.look_at = Vector(scene.centre());
-  view.position = Vector(scene.centre() + from * scale);
+  view.look_at = Vector(ball.centre);
+  view.position = Vector(ball.centre + from * scale);
   return view;
 }
 
 std::vector<Light> make_up_lights(const Scene& scene) {
+  return make_up_lights(BoundingBall{scene.centre(), scene.bounding_radius()}, {0, 1, 0});
+}
+
+std::vector<Light> make_up_lights(const BoundingBall& ball, const Vector& up) {
   const FloatingPointMode mode;
+  const Affine upright = Affine::turning({0, 1, 0}, DVector(up));
   std::vector<Light> lights;
-  const double r = scene.bounding_radius();
   for (int k = 0; k < kMadeUpLights; ++k) {
     const DVector offset(1.6 * kCosines[k], 1 + 0.3 * (k % 2), 1.6 * kCosines[(k + 6) % kMadeUpLights]);
-    lights.push_back({Vector(scene.centre() + offset * r), Color{1, 1, 1}, 0.25f});
+    lights.push_back({Vector(ball.centre + upright.direction(offset) * ball.radius), Color{1, 1, 1}, 0.25f});
   }
   return lights;
 }

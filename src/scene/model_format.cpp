@@ -1,5 +1,7 @@
 #include "scene/model_format.h"
 
+#include <facemap/scene_file.h>
+
 #include <algorithm>
 #include <string>
 
@@ -48,6 +50,15 @@ bool is_obj_statement(std::string_view word) {
 }
 
 }  // namespace
+
+bool is_scene_file(std::string_view bytes, const std::filesystem::path& extension) {
+  constexpr std::string_view kTables[] = {"[settings]", "[ground]", "[[model]]", "[[camera]]",
+                                          "[[light]]",  "[model]",  "[camera]",  "[light]"};
+  const std::string named = lower_case(extension.string());
+  if (!named.empty()) return named == ".toml";
+  const std::string_view word = first_word(bytes.substr(0, kHead));
+  return std::find(std::begin(kTables), std::end(kTables), word) != std::end(kTables);
+}
 
 const char* const kKnownFormats = "OBJ, glTF, PLY, STL";
 

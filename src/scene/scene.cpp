@@ -90,6 +90,9 @@ Scene::Scene(Mesh mesh, std::vector<Material> materials, int threads)
 
 Scene::Scene(Model model, int threads)
     : Scene(std::move(model.mesh), std::move(model.materials), std::move(model.images), {}, threads) {
+  shared_->lights = std::move(model.lights);
+  shared_->cameras = std::move(model.cameras);
+  shared_->up = model.up;
   shared_->report = report_of(mesh(), model.objects.size(), std::move(model.warnings));
   shared_->object_runs = runs_of(model.triangle_objects, face_count(), model.objects.size());
   shared_->objects = std::move(model.objects);
@@ -143,25 +146,28 @@ void Scene::examine_faces(const Executor& executor) {
 }
 
 Scene Scene::load(const std::filesystem::path& path, int threads) {
-  const FloatingPointMode mode;
-  OBJ::Limits limits;
+  ModelLimits limits;
   limits.threads = threads;
+  return load(path, limits);
+}
+
+Scene Scene::load(const std::filesystem::path& path, const ModelLimits& limits) {
+  const FloatingPointMode mode;
   std::optional<FileMapping> file(std::in_place, path, limits.max_bytes);
   const ModelFormat format = sniff_format(file->text(), path.extension());
   if (format == ModelFormat::Obj) {
-    ObjModel model = load_obj(file, path, limits);
-    Scene scene(std::move(model.mesh), std::move(model.materials), std::move(model.images), model.smoothing, threads);
+    ObjModel model = load_obj(file, path, {limits.max_bytes, limits.max_faces, limits.threads, limits.allow_outside});
+    Scene scene(std::move(model.mesh), std::move(model.materials), std::move(model.images), model.smoothing,
+                limits.threads);
     scene.shared_->report = std::move(model.report);
     scene.shared_->objects = std::move(model.objects);
     scene.shared_->object_runs = std::move(model.object_runs);
     return scene;
   }
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  ModelLimits model_limits;
-  model_limits.threads = threads;
-  Model model = read_model(format, file->text(), path.string(), folder, model_limits);
+  Model model = read_model(format, file->text(), path.string(), folder, limits);
   file.reset();
-  return Scene(std::move(model), threads);
+  return Scene(std::move(model), limits.threads);
 }
 
 void Scene::list_kept_faces(const Executor& executor) {

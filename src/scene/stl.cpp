@@ -46,6 +46,7 @@ Model read_stl(std::string_view bytes, const std::string& name, const ModelLimit
     throw LoadError(Cause::TooLarge, name, 0, "more than " + std::to_string(limits.max_bytes) + " bytes");
   }
   Model model;
+  model.up = Vector(0, 0, 1);  // no file says so, and nearly all mean it
   ObjWarnings warnings(name);
   StlMesh mesh(model);
   if (is_stl_text(bytes)) {
