@@ -18,6 +18,8 @@
 
 namespace facemap {
 
+class Eye;
+
 /// Where a camera stands and looks.
 struct View {
   Vector position{0, 0, 0};
@@ -148,6 +150,7 @@ class Renderer {
 
   Image make(const Request& request);
   Image paint_by_lists(const Request& request);
+  Image paint_by_lists(const Request& request, const Eye& eye, std::size_t map_bytes, double made_ms);
   void build_lists(const Request& request, bool of_all);
   void find_cut_outs();
   void load_materials();

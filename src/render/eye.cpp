@@ -13,7 +13,7 @@ Camera::Hit CentralEye::nearest(const Ray& ray, Counters* counters) const {
   return camera_.nearest(ray.direction, counters);
 }
 
-RayBundle CentralEye::bundle(const Ray& ray, const MapPoint& place, double step) const {
+RayBundle CentralEye::bundle(const Ray& ray, const MapPoint& place, double step, double) const {
   RayBundle rays{ray.direction};
   set_neighbours(camera_, lens_, place, step, rays);
   return rays;

@@ -24,8 +24,9 @@ class Eye {
   /// As Camera::nearest.
   virtual Camera::Hit nearest(const Ray& ray, Counters* counters) const = 0;
 
-  /// The same, and those through the places `step` pixels to the right and below: see set_neighbours.
-  virtual RayBundle bundle(const Ray& ray, const MapPoint& place, double step) const = 0;
+  /// The ray through a place and those through the places `step` pixels to the right and below (set_neighbours), as if
+  /// they came from one origin. The face that it meets is `distance` directions away.
+  virtual RayBundle bundle(const Ray& ray, const MapPoint& place, double step, double distance) const = 0;
 
   /// Candidates of a pixel besides what its rays have met, if they are listed.
   virtual std::span<const std::uint32_t> faces_at(int x, int y) const = 0;
@@ -49,7 +50,7 @@ class CentralEye final : public Eye {
   const Scene& scene() const override { return camera_.scene(); }
   Ray ray(const MapPoint& place) const override;
   Camera::Hit nearest(const Ray& ray, Counters* counters) const override;
-  RayBundle bundle(const Ray& ray, const MapPoint& place, double step) const override;
+  RayBundle bundle(const Ray& ray, const MapPoint& place, double step, double distance) const override;
   std::span<const std::uint32_t> faces_at(int x, int y) const override;
   std::span<const std::uint32_t> cut_outs_at(int x, int y) const override;
 

@@ -63,6 +63,33 @@ Image Painter::paint(Renderer::Statistics& statistics) {
   } else {
     for_each_row(0, 1, [&](int y, Worker& worker) { paint_row(y, options_.samples, worker); });
   }
+  add_counts(statistics);
+  return std::move(image_);
+}
+
+Image Painter::look(Renderer::Statistics& statistics) {
+  image_.width = made_.width * options_.samples;
+  image_.height = made_.height * options_.samples;
+  const std::size_t samples = static_cast<std::size_t>(image_.width) * static_cast<std::size_t>(image_.height);
+  image_.pixels = {};
+  image_.ids.resize(samples);
+  image_.lights.resize(samples * static_cast<std::size_t>(image_.light_bytes()));
+  for_each_row(0, 1, [&](int y, Worker& worker) { look_at_row(y, worker); });
+  add_counts(statistics);
+  return std::move(image_);
+}
+
+// Places as in mean_of_grid.
+void Painter::look_at_row(int y, Worker& worker) {
+  const int n = options_.samples;
+  for (int x = 0; x < image_.width; ++x) {
+    const MapPoint place(made_.x + x / n + (x % n + 0.5) / n, made_.y + y / n + (y % n + 0.5) / n);
+    worker.shader.shade(place, 1.0 / n, worker.sample);
+    store_planes(index(x, y), worker.sample);
+  }
+}
+
+void Painter::add_counts(Renderer::Statistics& statistics) const {
   for (const std::unique_ptr<Worker>& worker : workers_) {
     statistics.camera_queries += worker->statistics.camera_queries;
     statistics.light_queries += worker->statistics.light_queries;
@@ -70,7 +97,6 @@ Image Painter::paint(Renderer::Statistics& statistics) {
     statistics.camera_tests += worker->statistics.camera_tests;
     statistics.light_tests += worker->statistics.light_tests;
   }
-  return std::move(image_);
 }
 
 // Leaves the neighbours out that edges were found with.

@@ -27,6 +27,9 @@ class Painter {
   /// Call once. Adds queries, tests and upsampled pixels to `statistics`.
   Image paint(Renderer::Statistics& statistics);
 
+  /// The planes of ids and lights of all samples of the pixels' grids, in place of paint().
+  Image look(Renderer::Statistics& statistics);
+
  private:
   struct Worker {
     Renderer::Statistics statistics;
@@ -40,6 +43,8 @@ class Painter {
 
   void for_each_row(double done_before, double share, const std::function<void(int y, Worker&)>& paint_row);
   void paint_row(int y, int samples, Worker& worker);
+  void look_at_row(int y, Worker& worker);
+  void add_counts(Renderer::Statistics& statistics) const;
   void upsample_edges(int y, Worker& worker);
   void cut_out_made();
   bool is_made(int x, int y) const;

@@ -5,7 +5,7 @@
 namespace facemap {
 
 Lens lens_of(const View& view, int width, int height) {
-  if (view.is_parallel) throw Error("an orthographic view has no lens");
+  if (view.is_parallel) return Lens::plane(1, width, height);
   if (!view.lens) return Projection(view.projection, view.field_angle, width, height);
   if (view.lens->width() != width || view.lens->height() != height) {
     throw Error("the view's lens is for a picture of " + std::to_string(view.lens->width()) + " x " +

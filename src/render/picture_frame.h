@@ -7,8 +7,8 @@
 
 namespace facemap {
 
-/// The lens of a view for a picture of this size. Throws Error if the view's own is for another size, or the view is
-/// orthographic.
+/// The lens of a view for a picture of this size; any for an orthographic one. Throws Error if the view's own is for
+/// another size.
 Lens lens_of(const View& view, int width, int height);
 
 /// Position and axes of a view. Throws Error if there are none.
@@ -17,7 +17,7 @@ SpaceVector frame_of(const View& view);
 /// The pixels that are to be made: Options::crop, or all.
 PixelBox made_pixels(const Renderer::Options& options);
 
-/// The rays of those pixels.
+/// The rays of those pixels; of an orthographic view the frame and the places alone.
 SampleGrid grid_of(const View& view, const Renderer::Options& options, int per_side);
 
 }  // namespace facemap

@@ -8,6 +8,7 @@
 #include "math/dvector.h"
 #include "math/exact_sign.h"
 #include "picture/ray_table.h"
+#include "render/shade.h"
 #include "render/shade_batch.h"
 #include "scene/surface_coordinates.h"
 
@@ -37,17 +38,24 @@ void make_room(PlaneSet wanted, Image& image) {
   if (wanted.has(Plane::Shadows)) image.shadows.assign(pixels, -1);
 }
 
+/// The ray of a pixel's centre.
+Eye::Ray ray_of(const PlaneSource& source, std::size_t pixel, const Image& image) {
+  const auto columns = static_cast<std::size_t>(image.width);
+  const int column = static_cast<int>(pixel % columns), row = static_cast<int>(pixel / columns);
+  if (source.eye != nullptr) return source.eye->ray(source.centres.map_point(column, row));
+  return {source.centres.frame.position(), source.centres.direction(column, row)};
+}
+
 /// The point that a pixel sees: the ray's parameter is that of the rational point, rounded.
 void put_point(const PlaneSource& source, std::size_t pixel, Image& image) {
-  const auto columns = static_cast<std::size_t>(image.width);
-  const Vector& K = source.centres.frame.position();
-  const Vector d = source.centres.direction(static_cast<int>(pixel % columns), static_cast<int>(pixel / columns));
+  const auto [K, d] = ray_of(source, pixel, image);
+  const double start = source.eye != nullptr ? source.eye->start({K, d}) : 0;
   const Triangle triangle = triangle_of(source.scene, static_cast<std::uint32_t>(image.ids[pixel]));
   const TruePoint point{K, d, triangle, side(triangle, K)};
   const double t = sharp_ray_parameter(point, ray_parameter(point));
   const DVector ray(d);
-  if (!image.depths.empty()) image.depths[pixel] = static_cast<float>(t * length(ray));
-  if (!image.zs.empty()) image.zs[pixel] = static_cast<float>(t * dot(ray, source.centres.frame.axis_z()));
+  if (!image.depths.empty()) image.depths[pixel] = static_cast<float>(start + t * length(ray));
+  if (!image.zs.empty()) image.zs[pixel] = static_cast<float>(start + t * dot(ray, source.centres.frame.axis_z()));
   if (!image.positions.empty()) image.positions[pixel] = Vector(DVector(K) + ray * t);
 }
 
@@ -65,7 +73,7 @@ void put_face(const PlaneSource& source, std::size_t pixel, Image& image) {
   if (image.face_normals.empty()) return;
   const Triangle triangle = triangle_of(scene, static_cast<std::uint32_t>(face));
   // As Shader has it: a face of which the camera is in front has its normal there.
-  const double turn = side(triangle, source.centres.frame.position()) < 0 ? 1 : -1;
+  const double turn = side(triangle, ray_of(source, pixel, image).origin) < 0 ? 1 : -1;
   image.face_normals[pixel] = Vector(normalized(corners_of(scene.mesh(), face).n) * turn);
 }
 
@@ -118,7 +126,25 @@ struct SeenPixels {
   }
 };
 
+/// The same one by one, for rays of their own origins.
+void fill_surfaces_of(const ParallelEye& eye, const PlaneSource& source, Image& image) {
+  Renderer::Options options;
+  options.normals = source.is_smooth ? Renderer::Normals::Smooth : Renderer::Normals::Flat;
+  const auto columns = static_cast<std::size_t>(image.width);
+  for_each_range(source, image, [&](std::size_t first, std::size_t end, int) {
+    Renderer::Statistics statistics;
+    Shader shader(eye, {}, options, statistics, source.materials);
+    for (std::size_t pixel = first; pixel < end; ++pixel) {
+      ShadedSurface surface{static_cast<std::uint32_t>(pixel), {}, {}};
+      const MapPoint place =
+          source.centres.map_point(static_cast<int>(pixel % columns), static_cast<int>(pixel / columns));
+      if (shader.see(place, 1, surface.seen, surface.look)) put_surface(source.scene.mesh(), surface, image);
+    }
+  });
+}
+
 void fill_surfaces(const PlaneSource& source, Image& image) {
+  if (source.eye != nullptr) return fill_surfaces_of(*source.eye, source, image);
   const RayTable rays(source.centres);
   for_each_range(source, image, [&](std::size_t first, std::size_t end, int) {
     const auto batch =

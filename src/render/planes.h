@@ -7,6 +7,7 @@
 #include "material/material_table.h"
 #include "parallel/executor.h"
 #include "picture/sample_grid.h"
+#include "render/parallel_eye.h"
 
 namespace facemap {
 
@@ -21,6 +22,7 @@ struct PlaneSource {
   bool is_smooth;                  ///< shading takes the file's normals
   const MaterialTable* materials;  ///< null: all is white
   const Executor& executor;
+  const ParallelEye* eye = nullptr;  ///< if the picture is orthographic: the grid gives places and axes, and no rays
 };
 
 /// Fills the planes that follow from the faces and lights of each pixel's centre, which the image has (asked_planes),

@@ -14,6 +14,7 @@
 #include "render/crop_margin.h"
 #include "render/light_sources.h"
 #include "render/painter.h"
+#include "render/parallel_eye.h"
 #include "render/picture_frame.h"
 #include "render/planes.h"
 #include "render/stopwatch.h"
@@ -128,8 +129,12 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 void Renderer::set_view(const View& view) {
   const FloatingPointMode mode;
-  lens_of(view, options_.width, options_.height);
   frame_of(view);
+  if (!view.is_parallel) {
+    lens_of(view, options_.width, options_.height);
+  } else if (!(view.height > 0) || !std::isfinite(view.height)) {
+    throw Error("the height of an orthographic view must be finite and above 0");
+  }
   view_ = view;
 }
 
@@ -174,7 +179,8 @@ Image Renderer::make(const Request& request) {
   work.spent_in_vain = kept_->spent_in_vain;
   work.lost_to_bounds = kept_->lost_to_bounds;
   work.map_memory = options.map_memory;
-  const StrategyChoice choice = choose_strategy(options, work);
+  StrategyChoice choice = choose_strategy(options, work);
+  if (view_.is_parallel) choice = {Strategy::Lists, "each ray of an orthographic picture has an origin of its own"};
 
   statistics_ = Statistics();
   statistics_.strategy = choice.strategy;
@@ -185,7 +191,7 @@ Image Renderer::make(const Request& request) {
   if (request.wants_colours) load_materials();
   const bool by_lists = choice.strategy == Strategy::Lists;
   build_lists(request, by_lists);
-  if (is_by_samples(options)) return paint_by_lists(request);
+  if (view_.is_parallel || is_by_samples(options)) return paint_by_lists(request);
 
   const PixelBox pixels = request.wants_colours ? pixels_about_crop(options) : made;
   Options of_pixels = options;
@@ -210,10 +216,15 @@ void Renderer::fill_planes(Image& image) {
   const FloatingPointMode mode;
   const Stopwatch time;
   SampleGrid centres = grid_of(view_, options_, 1);
-  if (centres.lens.projection() == nullptr && !options_.planes.empty()) {
+  std::optional<ParallelEye> eye;
+  if (options_.planes.empty()) return;
+  if (view_.is_parallel) {
+    eye.emplace(*scene_, view_, options_.width, options_.height);
+  } else if (centres.lens.projection() == nullptr) {
     centres.directions = make_directions(centres, kept_->executor);
   }
-  facemap::fill_planes({*scene_, centres, options_.normals == Normals::Smooth, kept_->materials.get(), kept_->executor},
+  facemap::fill_planes({*scene_, centres, options_.normals == Normals::Smooth, kept_->materials.get(), kept_->executor,
+                        eye ? &*eye : nullptr},
                        options_.planes, image);
   statistics_.shade_ms += time.milliseconds();
 }
@@ -270,20 +281,27 @@ void Renderer::build_lists(const Request& request, bool of_all) {
 Image Renderer::paint_by_lists(const Request& request) {
   request.report(0, "camera map");
   const Stopwatch camera_time;
-  const Lens lens = lens_of(view_, request.options.width, request.options.height);
+  const int width = request.options.width, height = request.options.height;
+  if (view_.is_parallel) {
+    const ParallelEye eye(*scene_, view_, width, height);
+    return paint_by_lists(request, eye, eye.memory_bytes(), camera_time.milliseconds());
+  }
+  const Lens lens = lens_of(view_, width, height);
   Camera::Options wanted = camera_options(lens, request.options.builder);
   wanted.cut_outs = options_.materials;
   wanted.max_texture_pixels = options_.max_texture_pixels;
   const Camera camera(*scene_, frame_of(view_), wanted);
-  statistics_.camera_map_ms = camera_time.milliseconds();
-  statistics_.map_bytes += camera.memory_bytes();
+  return paint_by_lists(request, CentralEye(camera, lens), camera.memory_bytes(), camera_time.milliseconds());
+}
 
+Image Renderer::paint_by_lists(const Request& request, const Eye& eye, std::size_t map_bytes, double made_ms) {
+  statistics_.camera_map_ms = made_ms;
+  statistics_.map_bytes += map_bytes;
   const Stopwatch shade_time;
-  const CentralEye eye(camera, lens);
   const std::vector<simd::LightSource> sources = light_sources(lights_, request.options.falloff);
   Painter painter(eye, sources, kept_->lists, request.options, kept_->materials.get(), kept_->executor,
                   [&](double fraction) { request.report(fraction, "shade"); });
-  Image image = painter.paint(statistics_);
+  Image image = request.wants_colours ? painter.paint(statistics_) : painter.look(statistics_);
   statistics_.shade_ms += shade_time.milliseconds();
   return image;
 }

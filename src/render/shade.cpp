@@ -111,16 +111,23 @@ DVector Shader::white_radiance(const Surface& surface, Sample& sample) {
   return radiance;
 }
 
-DVector Shader::material_radiance(const Surface& surface, const MapPoint& point, double step, Sample& sample) {
+SeenSurface Shader::seen_surface(const Surface& surface, const MapPoint& point, double step) const {
   SeenSurface seen;
-  seen.face = static_cast<std::uint32_t>(sample.face);
+  seen.face = static_cast<std::uint32_t>(surface.point.face);
   seen.weights = surface.weights;
   seen.normal = surface.normal;
   seen.is_behind = surface.point.side > 0;
   const Eye::Ray ray = {surface.point.origin, surface.point.direction};
   seen.camera = DVector(ray.origin);
   seen.rays.through = ray.direction;
-  if (materials_->has_textures(seen.face)) seen.rays = eye_.bundle(ray, point, step);
+  if (materials_ == nullptr || !materials_->has_textures(seen.face)) return seen;
+  const DVector d(ray.direction);
+  seen.rays = eye_.bundle(ray, point, step, dot(surface.position - seen.camera, d) / dot(d, d));
+  return seen;
+}
+
+DVector Shader::material_radiance(const Surface& surface, const MapPoint& point, double step, Sample& sample) {
+  const SeenSurface seen = seen_surface(surface, point, step);
   const SurfaceLook look = materials_->look(seen, frame_);
   LitSurface lit(seen, look, surface.position, surroundings_);
   for_each_lit(surface, sample, [&](const simd::LightSource& light) { lit.add(light); });
@@ -140,6 +147,17 @@ void Shader::shade(const MapPoint& point, double step, Sample& sample) {
   const DVector radiance =
       materials_ == nullptr ? white_radiance(surface, sample) : material_radiance(surface, point, step, sample);
   sample.color = {static_cast<float>(radiance.x), static_cast<float>(radiance.y), static_cast<float>(radiance.z)};
+}
+
+bool Shader::see(const MapPoint& point, double step, SeenSurface& seen, SurfaceLook& look) {
+  const Eye::Ray ray = eye_.ray(point);
+  const Camera::Hit hit = eye_.nearest(ray, nullptr);
+  if (!hit) return false;
+  seen = seen_surface(surface_at(ray, hit), point, step);
+  look = {};
+  look.normal = seen.normal;
+  if (materials_ != nullptr) look = materials_->look(seen, frame_);
+  return true;
 }
 
 }  // namespace facemap

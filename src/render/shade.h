@@ -38,8 +38,12 @@ class Shader {
   /// next sample to the right and down, in pixels, which textures are filtered for.
   void shade(const MapPoint& point, double step, Sample& sample);
 
+  /// The surface along the same ray, unshaded; false if there is none.
+  bool see(const MapPoint& point, double step, SeenSurface& seen, SurfaceLook& look);
+
  private:
   struct Surface;
+  SeenSurface seen_surface(const Surface& surface, const MapPoint& point, double step) const;
   Surface surface_at(const Eye::Ray& ray, const Camera::Hit& hit) const;
   bool is_lit(std::size_t light, const Surface& surface);
   template <class Add>

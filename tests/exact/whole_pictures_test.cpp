@@ -14,8 +14,10 @@
 #include <vector>
 
 #include "render/light_sources.h"
+#include "render/parallel_eye.h"
 #include "scene/surface_coordinates.h"
 #include "simd/target.h"
+#include "support/lenses.h"
 #include "support/oracle.h"
 #include "support/parallel_oracle.h"
 #include "support/queries.h"
@@ -106,6 +108,11 @@ class Session {
     view.projection = is_plane ? ProjectionKind::Plane : ProjectionKind::Surface;
     view.field_angle =
         random_.chance(0.3) ? std::exp2(random_.between(-20.0, 0.0)) : random_.between(0.1, is_plane ? 3.0 : 2 * M_PI);
+    if (random_.chance(0.15)) {
+      view.is_parallel = true;
+      const DVector size = DVector(Scene(test.mesh).upper()) - DVector(Scene(test.mesh).lower());
+      view.height = std::max({size.x, size.y, size.z, 1e-30}) * std::exp2(random_.between(-6.0, 1.0));
+    }
     return view;
   }
 
@@ -121,7 +128,7 @@ class Session {
   void ask_picture() {
     const TestScene test = test_scenes::make_any_scene(random_, kLargestFaceCount);
     const Scene scene(test.mesh);
-    const View view = make_view(test);
+    View view = make_view(test);
     std::vector<Light> lights(static_cast<std::size_t>(random_.between(0, 10)));
     for (Light& light : lights) {
       light.position = test_scenes::make_origin(test, random_);
@@ -130,7 +137,9 @@ class Session {
     Renderer::Options options;
     options.width = random_.between(1, 40);
     options.height = random_.between(1, 40);
+    if (random_.chance(0.3)) set_lens(view, options);
     options.samples = random_.chance(0.2) ? random_.between(2, 3) : 1;
+    if (random_.chance(0.2)) options.crop = any_part(options);
     options.threads = random_.between(1, 3);
     if (random_.chance(0.3)) options.map_memory = 1;  // bands of few rows
     if (random_.chance(0.5)) options.light_maps = Renderer::LightMaps::Keep;
@@ -148,9 +157,23 @@ class Session {
     }
   }
 
+  void set_lens(View& view, Renderer::Options& options) {
+    view.lens = random_lens(random_, 40).lens;
+    options.width = view.lens->width();
+    options.height = view.lens->height();
+    view.is_parallel = false;
+  }
+
+  PixelBox any_part(const Renderer::Options& options) {
+    const int x = random_.below(options.width), y = random_.below(options.height);
+    return {x, y, random_.between(1, options.width - x), random_.between(1, options.height - y)};
+  }
+
   void look_elsewhere(const TestScene& test, Renderer& renderer) {
     try {
-      renderer.set_view(make_view(test));
+      View elsewhere = make_view(test);
+      elsewhere.is_parallel = false;
+      renderer.set_view(elsewhere);
       renderer.look();
     } catch (const Error&) {  // as in ask_picture
     }
@@ -163,30 +186,38 @@ class Session {
     std::vector<LightTruth> light_truths;
     for (const Light& light : lights) light_truths.emplace_back(oracle, light);
     const SpaceVector frame = SpaceVector::looking_at(view.position, view.look_at, view.up);
-    const Projection projection(view.projection, view.field_angle, options.width, options.height);
-    ASSERT_EQ(image.width, options.width * options.samples);
-    ASSERT_EQ(image.height, options.height * options.samples);
+    const Lens lens = view.lens
+                          ? *view.lens
+                          : Lens(Projection(view.is_parallel ? ProjectionKind::Plane : view.projection,
+                                            view.is_parallel ? 1 : view.field_angle, options.width, options.height));
+    std::optional<ParallelEye> eye;
+    if (view.is_parallel) eye.emplace(scene, view, options.width, options.height);
+    const PixelBox made = options.crop.value_or(PixelBox{0, 0, options.width, options.height});
+    ASSERT_EQ(image.width, made.width * options.samples);
+    ASSERT_EQ(image.height, made.height * options.samples);
     for (int y = 0; y < image.height; ++y) {
       for (int x = 0; x < image.width; ++x) {
         const int n = options.samples;
-        const MapPoint point(x / n + (x % n + 0.5) / n, y / n + (y % n + 0.5) / n);
-        Vector d(0);
-        if (projection.has_direction(point)) d = Vector(frame.world_from_local(projection.local_from_map(point)));
+        const MapPoint point(made.x + x / n + (x % n + 0.5) / n, made.y + y / n + (y % n + 0.5) / n);
+        Eye::Ray ray = {view.position, Vector(0)};
+        if (const auto local = lens.direction(point)) ray.direction = Vector(frame.world_from_local(*local));
+        if (eye) ray = eye->ray(point);
+        const auto& [K, d] = ray;
         const std::size_t i = static_cast<std::size_t>(y) * image.width + x;
         ++tally_.rays;
-        const oracle::Hit truth = camera_truth.nearest(d);
+        const oracle::Hit truth = eye ? oracle.from(K).nearest(d) : camera_truth.nearest(d);
         std::string expected = std::to_string(truth.face), actual = std::to_string(image.ids[i]);
         for (std::size_t l = 0; l < lights.size(); ++l) {
           bool is_lit = false;
           if (truth.face != kNoFace) {
             const Mesh& mesh = scene.mesh();
             is_lit = light_truths[l].is_lit(
-                mesh, {view.position,
+                mesh, {K,
                        d,
                        {mesh.vertex(truth.face, 0), mesh.vertex(truth.face, 1), mesh.vertex(truth.face, 2)},
                        truth.face,
                        truth.side});
-            tally_.unreached += light_truths[l].is_out_of_reach(mesh, {view.position, d, {}, truth.face, 0});
+            tally_.unreached += light_truths[l].is_out_of_reach(mesh, {K, d, {}, truth.face, 0});
             ++tally_.shadow_questions;
           }
           expected += is_lit ? '1' : '0';
@@ -197,7 +228,10 @@ class Session {
         ++tally_.differences;
         std::string where = "camera " + test_queries::text(view.position) + " look at " +
                             test_queries::text(view.look_at) + " up " + test_queries::text(view.up) +
-                            (view.projection == ProjectionKind::Plane ? " plane " : " surface ") +
+                            (view.lens          ? " lens " + std::to_string(static_cast<int>(view.lens->kind()))
+                             : view.is_parallel ? " parallel " + std::to_string(view.height)
+                             : view.projection == ProjectionKind::Plane ? " plane "
+                                                                        : " surface ") +
                             std::to_string(view.field_angle) + " size " + std::to_string(options.width) + "x" +
                             std::to_string(options.height) + "x" + std::to_string(n);
         for (const Light& light : lights) where += text(light);

@@ -1,0 +1,58 @@
+#include "render/parallel_eye.h"
+
+#include <algorithm>
+
+#include "math/dvector.h"
+#include "render/picture_frame.h"
+
+namespace facemap {
+namespace {
+
+// The plane in front stands off by this share of the scene's radius, and of the coordinates' sizes: rounding to float32
+// moves origins by 2^-24 of those.
+constexpr double kClearance = 0x1p-10, kRounding = 0x1p-20;
+
+double size_of(const DVector& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
+
+double front_of(const Scene& scene, const SpaceVector& frame) {
+  const DVector position(frame.position()), centre = scene.centre();
+  const double radius = scene.bounding_radius();
+  const double sizes = size_of(position) + size_of(centre) + radius;
+  const double nearest = dot(centre - position, frame.axis_z()) - radius;
+  return std::min(0.0, nearest - radius * kClearance - sizes * kRounding);
+}
+
+}  // namespace
+
+ParallelEye::ParallelEye(const Scene& scene, const View& view, int width, int height)
+    : frame_(frame_of(view)),
+      map_(scene, Vector(frame_.axis_z())),
+      half_width_(width * 0.5),
+      half_height_(height * 0.5),
+      pixel_(view.height / height),
+      front_(front_of(scene, frame_)) {}
+
+Eye::Ray ParallelEye::ray(const MapPoint& place) const {
+  const DVector local((place.x - half_width_) * pixel_, (half_height_ - place.y) * pixel_, front_);
+  return {Vector(DVector(frame_.position()) + frame_.world_from_local(local)), map_.direction()};
+}
+
+Camera::Hit ParallelEye::nearest(const Ray& ray, Counters* counters) const {
+  Camera::Hit hit = map_.nearest(ray.origin, counters);
+  if (hit) hit.depth = static_cast<float>(hit.depth + start(ray));
+  return hit;
+}
+
+double ParallelEye::start(const Ray& ray) const {
+  return dot(DVector(ray.origin) - DVector(frame_.position()), frame_.axis_z());
+}
+
+// What the face is `distance` directions away moves by as much as the origin, up to its slope: as if the direction
+// moved by that share.
+RayBundle ParallelEye::bundle(const Ray& ray, const MapPoint&, double step, double distance) const {
+  const double way = step * pixel_ / distance;
+  return {ray.direction, Vector(DVector(ray.direction) + frame_.axis_x() * way),
+          Vector(DVector(ray.direction) - frame_.axis_y() * way)};
+}
+
+}  // namespace facemap

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <facemap/parallel_map.h>
+#include <facemap/renderer.h>
+
+#include "render/eye.h"
+
+namespace facemap {
+
+/// Looks along one direction: an orthographic camera. Rays begin on a plane in front of the whole scene, so that each
+/// face is met; each ray's origin is a float32 point and exact input from there on, as is the direction.
+class ParallelEye final : public Eye {
+ public:
+  /// `view` must be orthographic. Pictures are width x height pixels.
+  ParallelEye(const Scene& scene, const View& view, int width, int height);
+
+  const Scene& scene() const override { return map_.scene(); }
+  Ray ray(const MapPoint& place) const override;
+  Camera::Hit nearest(const Ray& ray, Counters* counters) const override;
+  RayBundle bundle(const Ray& ray, const MapPoint& place, double step, double distance) const override;
+  std::span<const std::uint32_t> faces_at(int, int) const override { return {}; }
+
+  /// How far in front of the camera's plane a ray begins: world units, not above 0.
+  double start(const Ray& ray) const;
+
+  std::size_t memory_bytes() const { return map_.memory_bytes(); }
+
+ private:
+  SpaceVector frame_;
+  ParallelMap map_;
+  double half_width_, half_height_;  // pixels
+  double pixel_;                     // world units
+  double front_;                     // along the sight, of the plane that rays begin on
+};
+
+}  // namespace facemap
