@@ -133,7 +133,7 @@ void fill_surfaces_of(const ParallelEye& eye, const PlaneSource& source, Image& 
   const auto columns = static_cast<std::size_t>(image.width);
   for_each_range(source, image, [&](std::size_t first, std::size_t end, int) {
     Renderer::Statistics statistics;
-    Shader shader(eye, {}, options, statistics, source.materials);
+    Shader shader(eye, {}, {}, options, statistics, source.materials);
     for (std::size_t pixel = first; pixel < end; ++pixel) {
       ShadedSurface surface{static_cast<std::uint32_t>(pixel), {}, {}};
       const MapPoint place =
