@@ -22,14 +22,21 @@ double front_of(const Scene& scene, const SpaceVector& frame) {
   return std::min(0.0, nearest - radius * kClearance - sizes * kRounding);
 }
 
+ParallelMap::Options map_options(const Renderer::Options& options) {
+  ParallelMap::Options wanted;
+  wanted.cut_outs = options.materials;
+  wanted.max_texture_pixels = options.max_texture_pixels;
+  return wanted;
+}
+
 }  // namespace
 
-ParallelEye::ParallelEye(const Scene& scene, const View& view, int width, int height)
+ParallelEye::ParallelEye(const Scene& scene, const View& view, const Renderer::Options& options)
     : frame_(frame_of(view)),
-      map_(scene, Vector(frame_.axis_z())),
-      half_width_(width * 0.5),
-      half_height_(height * 0.5),
-      pixel_(view.height / height),
+      map_(scene, Vector(frame_.axis_z()), map_options(options)),
+      half_width_(options.width * 0.5),
+      half_height_(options.height * 0.5),
+      pixel_(view.height / options.height),
       front_(front_of(scene, frame_)) {}
 
 Eye::Ray ParallelEye::ray(const MapPoint& place) const {

@@ -11,8 +11,8 @@ namespace facemap {
 /// face is met; each ray's origin is a float32 point and exact input from there on, as is the direction.
 class ParallelEye final : public Eye {
  public:
-  /// `view` must be orthographic. Pictures are width x height pixels.
-  ParallelEye(const Scene& scene, const View& view, int width, int height);
+  /// `view` must be orthographic; of the options the picture's size counts, and what is known of holes.
+  ParallelEye(const Scene& scene, const View& view, const Renderer::Options& options);
 
   const Scene& scene() const override { return map_.scene(); }
   Ray ray(const MapPoint& place) const override;

@@ -227,7 +227,8 @@ class Raster {
 };
 
 void check(const View& view, const RasterOptions& options) {
-  if (view.projection != ProjectionKind::Plane || view.lens || view.is_parallel) throw Error("raster: the method has the plane projection alone");
+  if (view.projection != ProjectionKind::Plane || view.lens || view.is_parallel)
+    throw Error("raster: the method has the plane projection alone");
   if (options.edge_samples < 1 || options.edge_samples > kMostEdgeSamples) {
     throw Error("raster: edge_samples must be 1 to 16");
   }

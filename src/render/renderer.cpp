@@ -10,6 +10,7 @@
 #include "math/dvector.h"
 #include "math/elementary.h"
 #include "parallel/executor.h"
+#include "picture/wide_map.h"
 #include "render/cost_model.h"
 #include "render/crop_margin.h"
 #include "render/light_sources.h"
@@ -25,8 +26,6 @@
 
 namespace facemap {
 namespace {
-
-constexpr int kLargestMap = 2048;  // texels a side, of a lens's map
 
 bool is_valid(const Color& c) {
   return c.r >= 0 && c.g >= 0 && c.b >= 0 && std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
@@ -77,18 +76,14 @@ void validate(const Renderer::Options& options, const std::vector<Light>& lights
 
 // The map that a lens is asked of: its own if it is a projection, else one of all that it shows.
 Camera::Options camera_options(const Lens& lens, Builder builder) {
-  Camera::Options options;
-  options.builder = builder;
-  options.width = lens.width();
-  options.height = lens.height();
+  Camera::Options options = wide_map(lens);
   if (const Projection* projection = lens.projection()) {
     options.projection = projection->kind();
     options.field_angle = projection->field_angle();
-    return options;
+    options.width = lens.width();
+    options.height = lens.height();
   }
-  constexpr double kRoundedDirection = 0x1p-20;  // radians: float32, and what doubles lose
-  options.field_angle = std::min(2 * elementary::kPi, 2 * (lens.largest_angle() + kRoundedDirection));
-  options.width = options.height = std::min(kLargestMap, std::max(lens.width(), lens.height()));
+  options.builder = builder;
   return options;
 }
 
@@ -219,7 +214,7 @@ void Renderer::fill_planes(Image& image) {
   std::optional<ParallelEye> eye;
   if (options_.planes.empty()) return;
   if (view_.is_parallel) {
-    eye.emplace(*scene_, view_, options_.width, options_.height);
+    eye.emplace(*scene_, view_, options_);
   } else if (centres.lens.projection() == nullptr) {
     centres.directions = make_directions(centres, kept_->executor);
   }
@@ -281,12 +276,11 @@ void Renderer::build_lists(const Request& request, bool of_all) {
 Image Renderer::paint_by_lists(const Request& request) {
   request.report(0, "camera map");
   const Stopwatch camera_time;
-  const int width = request.options.width, height = request.options.height;
   if (view_.is_parallel) {
-    const ParallelEye eye(*scene_, view_, width, height);
+    const ParallelEye eye(*scene_, view_, request.options);
     return paint_by_lists(request, eye, eye.memory_bytes(), camera_time.milliseconds());
   }
-  const Lens lens = lens_of(view_, width, height);
+  const Lens lens = lens_of(view_, request.options.width, request.options.height);
   Camera::Options wanted = camera_options(lens, request.options.builder);
   wanted.cut_outs = options_.materials;
   wanted.max_texture_pixels = options_.max_texture_pixels;

@@ -191,7 +191,7 @@ class Session {
                           : Lens(Projection(view.is_parallel ? ProjectionKind::Plane : view.projection,
                                             view.is_parallel ? 1 : view.field_angle, options.width, options.height));
     std::optional<ParallelEye> eye;
-    if (view.is_parallel) eye.emplace(scene, view, options.width, options.height);
+    if (view.is_parallel) eye.emplace(scene, view, options);
     const PixelBox made = options.crop.value_or(PixelBox{0, 0, options.width, options.height});
     ASSERT_EQ(image.width, made.width * options.samples);
     ASSERT_EQ(image.height, made.height * options.samples);

@@ -358,7 +358,9 @@ TEST(Orthographic, RaysBeginInFrontOfTheSceneWhereverTheCameraStands) {
     view.up = Vector(random.direction());
     view.is_parallel = true;
     view.height = 2 * scene.bounding_radius() + 1e-3;
-    const ParallelEye eye(scene, view, 16, 16);
+    Options options;
+    options.width = options.height = 16;
+    const ParallelEye eye(scene, view, options);
     for (const MapPoint& place : {MapPoint(0.5, 0.5), MapPoint(8, 8), MapPoint(15.5, 3.5)}) {
       const Eye::Ray ray = eye.ray(place);
       for (const Vector& p : scene.mesh().positions) {
