@@ -5,6 +5,20 @@
 #include "render/filtered_rows.h"
 
 namespace facemap {
+namespace {
+
+Color mean(std::span<const Color> colors) {
+  double r = 0, g = 0, b = 0;
+  for (const Color& color : colors) {
+    r += color.r;
+    g += color.g;
+    b += color.b;
+  }
+  const auto count = static_cast<double>(colors.size());
+  return {static_cast<float>(r / count), static_cast<float>(g / count), static_cast<float>(b / count)};
+}
+
+}  // namespace
 
 DividedPixels::DividedPixels(const PixelFilter& filter, bool is_box, const EdgePixels& edges, std::span<Color> pixels)
     : filter_(filter), is_box_(is_box), edges_(edges), pixels_(pixels) {
@@ -12,32 +26,21 @@ DividedPixels::DividedPixels(const PixelFilter& filter, bool is_box, const EdgeP
 }
 
 // The mean in the order of rows and columns, as of a picture whose pixels are all divided.
-void DividedPixels::take(const SampleGrid& samples, int rows, std::span<const FaceId> faces,
+void DividedPixels::take(std::size_t first, const DividedPlaces& places, std::span<const std::uint32_t> samples,
                          std::span<const Color> colors, const Color& background) {
-  const auto columns = static_cast<std::size_t>(samples.columns()), n = static_cast<std::size_t>(samples.per_side);
-  const auto width = static_cast<std::size_t>(edges_.width());
-  const std::size_t first = edges_.first_pixel(samples);
-  const double count = static_cast<double>(n * n);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(rows) * width; ++i) {
-    if (!edges_.is_divided(first + i)) continue;
-    ++count_;
-    const std::size_t corner = i / width * n * columns + i % width * n;
-    double r = 0, g = 0, b = 0;
-    for (std::size_t k = 0; k < n * n; ++k) {
-      const std::size_t sample = corner + k / n * columns + k % n;
-      const Color& color = faces[sample] == kNoFace ? background : colors[sample];
-      if (!is_box_) samples_.push_back(color);
-      r += color.r;
-      g += color.g;
-      b += color.b;
-    }
+  const std::size_t in_pixel = places.in_pixel();
+  std::vector<Color> of_all(places.count(), background);
+  for (std::size_t i = 0; i < samples.size(); ++i) of_all[places.place(samples[i])] = colors[i];
+  count_ += places.pixels.size();
+  for (std::size_t i = 0; i < places.pixels.size(); ++i) {
+    const std::size_t pixel = first + places.pixels[i];
     if (is_box_) {
-      pixels_[first + i] = {static_cast<float>(r / count), static_cast<float>(g / count),
-                            static_cast<float>(b / count)};
+      pixels_[pixel] = mean(std::span(of_all).subspan(i * in_pixel, in_pixel));
     } else {
-      numbers_[first + i] = static_cast<std::uint32_t>(samples_.size() / (n * n));
+      numbers_[pixel] = static_cast<std::uint32_t>(samples_.size() / in_pixel + i + 1);
     }
   }
+  if (!is_box_) samples_.insert(samples_.end(), of_all.begin(), of_all.end());
 }
 
 void DividedPixels::finish(const Executor& executor) {

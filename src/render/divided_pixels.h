@@ -21,10 +21,9 @@ class DividedPixels {
   /// this.
   DividedPixels(const PixelFilter& filter, bool is_box, const EdgePixels& edges, std::span<Color> pixels);
 
-  /// Takes the samples of the pixels of this round in the first `rows` rows of pixels of a band. `colors`: of samples
-  /// that see a face.
-  void take(const SampleGrid& samples, int rows, std::span<const FaceId> faces, std::span<const Color> colors,
-            const Color& background);
+  /// Takes samples of a band whose first pixel is number `first`: their colours, of those that see a face.
+  void take(std::size_t first, const DividedPlaces& places, std::span<const std::uint32_t> samples,
+            std::span<const Color> colors, const Color& background);
 
   /// Once all are taken.
   void finish(const Executor& executor);

@@ -143,43 +143,62 @@ void EdgePixels::keep_divided(const SampleGrid& samples, int rows, std::span<Fac
   });
 }
 
-void EdgePixels::spread(const SampleGrid& samples, int rows, std::span<const FaceId> faces,
+DividedPlaces EdgePixels::places_of_divided(const SampleGrid& samples, int rows) const {
+  DividedPlaces places{static_cast<std::uint32_t>(samples.columns()), static_cast<std::uint32_t>(samples.per_side)};
+  const std::size_t first = first_pixel(samples);
+  places.ranks.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(width_));
+  for (std::size_t i = 0; i < places.ranks.size(); ++i) {
+    if (!is_divided(first + i)) continue;
+    places.ranks[i] = static_cast<std::uint32_t>(places.pixels.size());
+    places.pixels.push_back(static_cast<std::uint32_t>(i));
+  }
+  return places;
+}
+
+void EdgePixels::spread(const SampleGrid& samples, int rows, const DividedPlaces& places, std::span<const FaceId> faces,
                         const SampleLights& lights) {
-  std::vector<std::uint32_t> numbers(faces.size());  // of samples in `lights`
-  for (std::size_t i = 0; i < lights.samples.size(); ++i) numbers[lights.samples[i]] = static_cast<std::uint32_t>(i);
-  const int top = row_of(samples);
+  std::vector<std::uint64_t> keys(places.count());
+  constexpr std::size_t kLeastSamples = 1 << 14;  // of a task
+  for_ranges(executor_, lights.samples.size(), kLeastSamples, [&](std::size_t begin, std::size_t end, int) {
+    for (std::size_t i = begin; i < end; ++i) {
+      keys[places.place(lights.samples[i])] = key_of(lights.mask(i), lights.stride);
+    }
+  });
   executor_.for_each(static_cast<std::size_t>(rows), [&](std::size_t row, int worker) {
     for (int x = 0; x < width_; ++x) {
-      const int y = top + static_cast<int>(row);
-      if (is_divided(index(x, y))) {
-        spread_from(x, y, samples, faces, numbers, lights, joined_[static_cast<std::size_t>(worker)]);
-      }
+      const int y = row_of(samples) + static_cast<int>(row);
+      if (!is_divided(index(x, y))) continue;
+      const std::size_t rank = places.ranks[index(x, static_cast<int>(row))];
+      spread_from(x, y, samples, faces, &keys[rank * places.in_pixel()], joined_[static_cast<std::size_t>(worker)]);
     }
   });
 }
 
 // The samples of the pixel's border.
 void EdgePixels::spread_from(int x, int y, const SampleGrid& samples, std::span<const FaceId> faces,
-                             std::span<const std::uint32_t> numbers, const SampleLights& lights, JoinedFaces& joined) {
-  const int n = samples.per_side;
+                             const std::uint64_t* key, JoinedFaces& joined) {
+  const int n = samples.per_side, row = y - row_of(samples);
+  const FaceId* const first = &faces[static_cast<std::size_t>(row * n) * static_cast<std::size_t>(samples.columns()) +
+                                     static_cast<std::size_t>(x * n)];
   for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i) {
-      const auto sample =
-          static_cast<std::size_t>((y - row_of(samples)) * n + j) * static_cast<std::size_t>(samples.columns()) +
-          static_cast<std::size_t>(x * n + i);
-      if (faces[sample] == kNoFace) continue;
-      const std::uint64_t key = key_of(lights.mask(numbers[sample]), lights.stride);
+    for (int i = 0; i < n; ++i, ++key) {
+      const FaceId face = first[static_cast<std::size_t>(j) * static_cast<std::size_t>(samples.columns()) +
+                                static_cast<std::size_t>(i)];
+      if (face == kNoFace) continue;
       for (int v = y - (j == 0); v <= y + (j == n - 1); ++v) {
         for (int u = x - (i == 0); u <= x + (i == n - 1); ++u) {
-          if (u < 0 || v < 0 || u >= width_ || v >= height_) continue;
-          const Centre& centre = centres_[index(u, v)];
-          if (centre.face == kNoFace || (states_[index(u, v)] & kDone) != 0) continue;
-          if (centre.lights == key || !joined.are_joined(faces[sample], centre.face)) continue;
-          std::atomic_ref(next_[index(u, v)]).store(1, std::memory_order_relaxed);
+          if (u >= 0 && v >= 0 && u < width_ && v < height_) meet(face, *key, index(u, v), joined);
         }
       }
     }
   }
+}
+
+// A sample next to a pixel.
+void EdgePixels::meet(FaceId face, std::uint64_t lights, std::size_t pixel, JoinedFaces& joined) {
+  const Centre& centre = centres_[pixel];
+  if (centre.face == kNoFace || centre.lights == lights || (states_[pixel] & kDone) != 0) return;
+  if (joined.are_joined(face, centre.face)) std::atomic_ref(next_[pixel]).store(1, std::memory_order_relaxed);
 }
 
 bool EdgePixels::next_round() {

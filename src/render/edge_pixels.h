@@ -22,6 +22,20 @@ struct SampleLights {
   const std::uint8_t* mask(std::size_t i) const { return masks.data() + i * stride; }
 };
 
+/// Where the samples of a band's divided pixels stand in an array of them alone: pixel by pixel, each row by row.
+struct DividedPlaces {
+  std::uint32_t columns, per_side;         ///< of the band's samples
+  std::vector<std::uint32_t> pixels = {};  ///< those that are divided, by their numbers in the band
+  std::vector<std::uint32_t> ranks = {};   ///< of all of the band's pixels among them
+
+  std::size_t in_pixel() const { return std::size_t{per_side} * per_side; }
+  std::size_t count() const { return pixels.size() * in_pixel(); }
+  std::size_t place(std::uint32_t sample) const {
+    const std::uint32_t row = sample / columns, column = sample % columns, n = per_side;
+    return (std::size_t{ranks[row / n * (columns / n) + column / n]} * n + row % n) * n + column % n;
+  }
+};
+
 /// Decides which pixels of a picture are divided into samples, from what one ray a pixel and then the samples see.
 /// Wang 2022, sec. 2.3, Fig. 3: those that may hold an edge.
 ///
@@ -54,10 +68,14 @@ class EdgePixels {
   void keep_divided(const SampleGrid& samples, int rows, std::span<FaceId> faces) const;
 
   /// Finds pixels for the next round beside those of this one. `faces` as keep_divided() left them.
-  void spread(const SampleGrid& samples, int rows, std::span<const FaceId> faces, const SampleLights& lights);
+  void spread(const SampleGrid& samples, int rows, const DividedPlaces& places, std::span<const FaceId> faces,
+              const SampleLights& lights);
 
   /// Ends a round. False if the next one has no pixels.
   bool next_round();
+
+  /// Of the pixels of this round in the first `rows` rows of pixels of a band.
+  DividedPlaces places_of_divided(const SampleGrid& samples, int rows) const;
 
   /// Of this round.
   bool is_divided(std::size_t pixel) const { return (states_[pixel] & kNow) != 0; }
@@ -83,8 +101,9 @@ class EdgePixels {
   bool holds_edge(const SampleGrid& samples, std::span<const FaceId> faces, int x, int y, JoinedFaces& joined) const;
   bool differs_from_neighbours(int x, int y) const;
   bool differ(std::size_t pixel, std::size_t other) const;
-  void spread_from(int x, int y, const SampleGrid& samples, std::span<const FaceId> faces,
-                   std::span<const std::uint32_t> numbers, const SampleLights& lights, JoinedFaces& joined);
+  void spread_from(int x, int y, const SampleGrid& samples, std::span<const FaceId> faces, const std::uint64_t* key,
+                   JoinedFaces& joined);
+  void meet(FaceId face, std::uint64_t lights, std::size_t pixel, JoinedFaces& joined);
 
   int row_of(const SampleGrid& samples) const { return samples.first_row / samples.per_side - top_; }
   std::size_t index(int x, int y) const {

@@ -266,6 +266,13 @@ void ShadeBatch::for_each_surface(const std::function<void(const ShadedSurface&)
   }
 }
 
+void ShadeBatch::store_in_order(Color* colors) const {
+  for (std::size_t i = 0; i < rays_.count; ++i) {
+    colors[i] = {static_cast<float>(points_.radiance[0][i]), static_cast<float>(points_.radiance[1][i]),
+                 static_cast<float>(points_.radiance[2][i])};
+  }
+}
+
 void ShadeBatch::store_colors(std::span<Color> colors) const {
   for (std::size_t i = 0; i < rays_.count; ++i) {
     colors[samples_[i]] = {static_cast<float>(points_.radiance[0][i]), static_cast<float>(points_.radiance[1][i]),

@@ -66,7 +66,8 @@ class ShadeBatch {
   /// point.
   void shade(const std::vector<simd::LightSource>& lights, const Surroundings& surroundings, const std::uint8_t* masks,
              std::size_t stride);
-  void store_colors(std::span<Color> colors) const;
+  void store_colors(std::span<Color> colors) const;  ///< to the places of their samples
+  void store_in_order(Color* colors) const;
 
   /// For planes: calls see(surface) for each point taken.
   void for_each_surface(const std::function<void(const ShadedSurface&)>& see);

@@ -113,9 +113,13 @@ void clear_unreached(const Scene& scene, const SampleGrid& grid, SeenPoints& see
                  });
 }
 
-void shade_points(const Scene& scene, const SampleGrid& grid, const SeenPoints& seen, const std::vector<Light>& lights,
-                  const Renderer::Options& options, const Executor& executor, std::span<Color> colors,
-                  const MaterialTable* materials) {
+namespace {
+
+// Calls store(batch, first) for all batches, shaded; `first`: the number of their first point.
+template <class Store>
+void shade_all(const Scene& scene, const SampleGrid& grid, const SeenPoints& seen, const std::vector<Light>& lights,
+               const Renderer::Options& options, const Executor& executor, const MaterialTable* materials,
+               const Store& store) {
   const std::vector<simd::LightSource> sources = light_sources(lights, options.falloff);
   const Surroundings surroundings(options);
   for_each_chunk(scene, grid, seen.points, options.normals == Renderer::Normals::Smooth, materials, executor,
@@ -123,9 +127,27 @@ void shade_points(const Scene& scene, const SampleGrid& grid, const SeenPoints& 
                    for (std::size_t count = 0; first < end; first += count) {
                      count = batch.take(seen.points, first, end);
                      batch.shade(sources, surroundings, seen.masks.data() + first * seen.stride, seen.stride);
-                     batch.store_colors(colors);
+                     store(batch, first);
                    }
                  });
+}
+
+}  // namespace
+
+void shade_points(const Scene& scene, const SampleGrid& grid, const SeenPoints& seen, const std::vector<Light>& lights,
+                  const Renderer::Options& options, const Executor& executor, std::span<Color> colors,
+                  const MaterialTable* materials) {
+  shade_all(scene, grid, seen, lights, options, executor, materials,
+            [&](const ShadeBatch& batch, std::size_t) { batch.store_colors(colors); });
+}
+
+std::vector<Color> colors_of_points(const Scene& scene, const SampleGrid& grid, const SeenPoints& seen,
+                                    const std::vector<Light>& lights, const Renderer::Options& options,
+                                    const Executor& executor, const MaterialTable* materials) {
+  std::vector<Color> colors(seen.points.size());
+  shade_all(scene, grid, seen, lights, options, executor, materials,
+            [&](const ShadeBatch& batch, std::size_t first) { batch.store_in_order(colors.data() + first); });
+  return colors;
 }
 
 std::vector<std::uint8_t> lights_that_add(const Scene& scene, const SampleGrid& grid, const SeenPoints& seen,

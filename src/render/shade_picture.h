@@ -34,6 +34,11 @@ void shade_points(const Scene& scene, const SampleGrid& grid, const SeenPoints& 
                   const Renderer::Options& options, const Executor& executor, std::span<Color> colors,
                   const MaterialTable* materials = nullptr);
 
+/// The same colours, one a seen point.
+std::vector<Color> colors_of_points(const Scene& scene, const SampleGrid& grid, const SeenPoints& seen,
+                                    const std::vector<Light>& lights, const Renderer::Options& options,
+                                    const Executor& executor, const MaterialTable* materials = nullptr);
+
 /// The masks of the seen points without the lights that the shading normal is turned from: they add nothing.
 std::vector<std::uint8_t> lights_that_add(const Scene& scene, const SampleGrid& grid, const SeenPoints& seen,
                                           const std::vector<Light>& lights, const Renderer::Options& options,

@@ -26,9 +26,6 @@ namespace {
 constexpr std::size_t kBytesPerSample = 40, kBytesPerSampleAndThread = 52;
 constexpr std::size_t kBytesPerFaceAndThread = 12;
 
-// Without a budget a band has at most this many samples: a picture of 2048 x 2048 is one.
-constexpr std::size_t kLargestBand = std::size_t{1} << 22;
-
 constexpr int kFewestRows = 16;  // of a band, unless the picture has fewer
 
 // Masks of points, put where their samples lie.
@@ -115,9 +112,8 @@ WholePicture::WholePicture(const Scene& scene, const std::shared_ptr<const CutOu
 }
 
 // Whole pixels stay together.
-std::vector<SampleGrid> WholePicture::bands(int per_side) const {
+std::vector<SampleGrid> WholePicture::bands(int per_side, std::size_t largest) const {
   SampleGrid grid = grid_of(view_, options_, per_side);
-  std::size_t largest = kLargestBand;
   if (options_.map_memory != 0) {
     const auto threads = static_cast<std::size_t>(executor_.threads());
     const std::size_t for_faces = scene_.mesh().positions.size() * kBytesPerFaceAndThread * threads;
@@ -154,13 +150,18 @@ void WholePicture::report(double share, const char* phase) {
   report_((static_cast<double>(bands_done_) + share) / static_cast<double>(band_count_), phase);
 }
 
-WholePicture::Seen WholePicture::see(const SampleGrid& grid, const Selection& select) {
+NearestFaces WholePicture::nearest_faces(const SampleGrid& grid) {
   const Stopwatch camera_time;
   report(0, "camera map");
   NearestFaces nearest = find_nearest_faces(solid_, grid, executor_, &statistics_.camera_tests);
   if (has_holes()) add_cut_outs(scene_, cut_outs_, grid, executor_, nearest, &statistics_.camera_tests);
   statistics_.camera_queries += grid.count();
-  if (select) select(nearest.faces);
+  statistics_.camera_map_ms += camera_time.milliseconds();
+  return nearest;
+}
+
+WholePicture::Seen WholePicture::see(const SampleGrid& grid, NearestFaces nearest) {
+  const Stopwatch camera_time;
   SeenPoints seen = find_seen_points(shown_, grid, nearest, places_, executor_);
   statistics_.camera_map_ms += camera_time.milliseconds();
   ask_lights(grid, seen);

@@ -9,6 +9,7 @@
 #include "material/material_table.h"
 #include "parallel/executor.h"
 #include "picture/lit_points.h"
+#include "picture/nearest_faces.h"
 #include "picture/sample_grid.h"
 #include "picture/seen_points.h"
 #include "picture/shadows.h"
@@ -59,18 +60,21 @@ class WholePicture {
     std::vector<FaceId> faces;  // one a sample
     SeenPoints points;          // masks: the lights that reach them
   };
-  using Selection = std::function<void(std::vector<FaceId>& faces)>;
-  std::vector<SampleGrid> bands(int per_side) const;
+  // Of at most `largest` samples, and as map_memory allows.
+  std::vector<SampleGrid> bands(int per_side, std::size_t largest = kLargestBand) const;
   SampleGrid with_directions(SampleGrid band);
   std::size_t first_row_of(const SampleGrid& grid) const;
-  Seen see(const SampleGrid& grid, const Selection& select = {});
+  NearestFaces nearest_faces(const SampleGrid& grid);
+  Seen see(const SampleGrid& grid, NearestFaces nearest);
+  Seen see(const SampleGrid& grid) { return see(grid, nearest_faces(grid)); }
   void prepare_lights(const SampleGrid& grid, const MovedPoints& moved, SeenPoints& seen);
   void ask_lights(const SampleGrid& grid, SeenPoints& seen);
   bool has_holes() const { return cut_outs_ != nullptr && cut_outs_->any(); }
   Image empty_image(int per_side) const;
   SampleLights lights_of(const Seen& seen) const;
   void paint_centres(EdgePixels& edges, Image& image);
-  void divide(const SampleGrid& grid, int rows, bool is_first, EdgePixels& edges, DividedPixels& divided);
+  NearestFaces faces_of_parts(const SampleGrid& grid);
+  void divide(const SampleGrid& grid, int rows, NearestFaces nearest, EdgePixels& edges, DividedPixels& divided);
   void put_planes(Seen&& seen, Image& image) const;
   void report(double share, const char* phase);
 
@@ -90,6 +94,8 @@ class WholePicture {
   Renderer::Statistics& statistics_;
   Report report_;
   bool paints_ = false;
+  static constexpr std::size_t kLargestBand = std::size_t{1} << 22;  // samples: a picture of 2048 x 2048 is one
+
   std::vector<Color> colors_;  // of the samples of a band, background to begin with
   std::size_t bands_done_ = 0, band_count_ = 1;
 };

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstddef>
 
 #include "render/divided_pixels.h"
 #include "render/edge_pixels.h"
@@ -7,6 +8,13 @@
 #include "render/whole_picture.h"
 
 namespace facemap {
+namespace {
+
+// Samples of a band of which few are shaded. Faces are found for fewer at a time.
+constexpr std::size_t kLargestDivided = std::size_t{1} << 24;
+
+}  // namespace
+
 // One ray a pixel, then the samples of the pixels that may hold an edge. The camera's faces are found for all samples:
 // that costs little beside light, and no edge between faces is missed.
 Image WholePicture::paint_edges() {
@@ -15,7 +23,9 @@ Image WholePicture::paint_edges() {
   const int n = options_.samples;
   image.pixels.resize(pixels);
   EdgePixels edges(scene_, view_, options_, materials_, executor_);
-  std::vector<SampleGrid> grids = bands(n);
+  const std::vector<SampleGrid> grids = bands(n, view_.lens ? kLargestBand : kLargestDivided);
+  const bool keeps_faces = grids.size() == 1;
+  NearestFaces kept;
   band_count_ = bands(1).size() + 2 * grids.size();
   paint_centres(edges, image);
 
@@ -27,7 +37,12 @@ Image WholePicture::paint_edges() {
       const int first = static_cast<int>(first_row_of(grid)) / n, rows = grid.rows() / n;
       if (!is_first && !edges.any_divided(first, first + rows)) continue;
       if (first + rows < image.height) grid.row_count += n;
-      divide(with_directions(grid), rows, is_first, edges, divided);
+      grid = with_directions(grid);
+      NearestFaces nearest = is_first || !keeps_faces ? faces_of_parts(grid) : std::move(kept);
+      if (is_first) edges.find_edges(grid, rows, nearest.faces);
+      if (is_first && keeps_faces) kept = {nearest.faces, nearest.loose};
+      edges.keep_divided(grid, rows, nearest.faces);
+      divide(grid, rows, std::move(nearest), edges, divided);
       bands_done_ = std::min(bands_done_ + 1, band_count_ - 1);
     }
   }
@@ -60,17 +75,35 @@ void WholePicture::paint_centres(EdgePixels& edges, Image& image) {
   }
 }
 
+// As nearest_faces() has them, a few rows at a time.
+NearestFaces WholePicture::faces_of_parts(const SampleGrid& grid) {
+  const int n = grid.per_side, columns = grid.columns(), end = grid.first_row + grid.rows();
+  const int rows = std::max(n, static_cast<int>(kLargestBand / static_cast<std::size_t>(columns)) / n * n);
+  if (rows >= grid.rows()) return nearest_faces(grid);
+  NearestFaces all;
+  all.faces.reserve(grid.count());
+  SampleGrid part = grid;
+  part.directions = nullptr;
+  for (; part.first_row < end; part.first_row += rows) {
+    part.row_count = std::min(rows, end - part.first_row);
+    const NearestFaces nearest = nearest_faces(with_directions(part));
+    const auto first = static_cast<std::uint32_t>(all.faces.size());
+    for (const std::uint32_t sample : nearest.loose) all.loose.push_back(first + sample);
+    all.faces.insert(all.faces.end(), nearest.faces.begin(), nearest.faces.end());
+  }
+  return all;
+}
+
 // `rows` rows of pixels; the grid may have one more, for what is known of its neighbours.
-void WholePicture::divide(const SampleGrid& grid, int rows, bool is_first, EdgePixels& edges, DividedPixels& divided) {
-  Seen seen = see(grid, [&](std::vector<FaceId>& faces) {
-    if (is_first) edges.find_edges(grid, rows, faces);
-    edges.keep_divided(grid, rows, faces);
-  });
+void WholePicture::divide(const SampleGrid& grid, int rows, NearestFaces nearest, EdgePixels& edges,
+                          DividedPixels& divided) {
+  const Seen seen = see(grid, std::move(nearest));
   const Stopwatch shade_time;
-  colors_.resize(std::max(colors_.size(), grid.count()));
-  shade_points(scene_, grid, seen.points, lights_, options_, executor_, colors_, materials_);
-  edges.spread(grid, rows, seen.faces, lights_of(seen));
-  divided.take(grid, rows, seen.faces, colors_, options_.background);
+  const std::vector<Color> colors =
+      colors_of_points(scene_, grid, seen.points, lights_, options_, executor_, materials_);
+  const DividedPlaces places = edges.places_of_divided(grid, rows);
+  edges.spread(grid, rows, places, seen.faces, lights_of(seen));
+  divided.take(edges.first_pixel(grid), places, seen.points.points.samples, colors, options_.background);
   statistics_.shade_ms += shade_time.milliseconds();
 }
 

@@ -99,6 +99,16 @@ TEST(EdgeSampling, ThreadsMemoryAndStrategyChangeNothing) {
   }
 }
 
+TEST(EdgeSampling, APictureOfSeveralBandsIsThatOfOne) {
+  const Scene scene(ball_on_floor(12, true));
+  Renderer::Options options = edges(1056, 2);  // more samples than faces are found for at a time
+  const Made one = make(scene, options);
+  options.map_memory = std::size_t{1} << 26;
+  const Made several = make(scene, options);
+  EXPECT_TRUE(several.image.pixels == one.image.pixels);
+  EXPECT_EQ(several.divided, one.divided);
+}
+
 TEST(EdgeSampling, DividedPixelsAreThoseOfTheGridAndOthersAreNear) {
   constexpr double kUnseen = 16.0 / 255;  // levels of square roots that count as one colour (edge_pixels.cpp)
   const Scene scene(ball_on_floor(24, true));
