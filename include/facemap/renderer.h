@@ -43,8 +43,8 @@ struct PixelBox {
 };
 
 /// A view in which the scene's bounding sphere just fits the field angle (50 degrees) or the lens, from direction
-/// (0.5, 0.6, 1) where `up` is (0, 1, 0), and from there turned along with `up` elsewhere; the height of an orthographic
-/// one is the sphere's diameter.
+/// (0.5, 0.6, 1) where `up` is (0, 1, 0), and from there turned along with `up` elsewhere; the height of an
+/// orthographic one is the sphere's diameter.
 View make_up_view(const Scene& scene, const View& wanted = View());
 View make_up_view(const BoundingBall& ball, const Vector& up, const View& wanted);
 

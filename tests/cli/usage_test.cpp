@@ -67,7 +67,8 @@ TEST_F(Program, RefusesValuesThatMakeNoSense) {
   const std::pair<const char*, const char*> cases[] = {
       {"--size 0x3", "--size: '0x3' is not a size: each side is 1 to 32768 pixels"},
       {"--size 99999x9", "--size: '99999x9' is not a size: each side is 1 to 32768 pixels"},
-      {"--size 32768x32768", "--size: '32768x32768' is not a size this program takes: 268435456 pixels at most (--max-pixels)"},
+      {"--size 32768x32768",
+       "--size: '32768x32768' is not a size this program takes: 268435456 pixels at most (--max-pixels)"},
       {"--size 99999999999x9", "--size: '99999999999x9' is not a size in pixels such as 1024x768"},
       {"--size 100", "--size: '100' is not a size in pixels such as 1024x768"},
       {"--size 8x8x8", "--size: '8x8x8' is not a size in pixels such as 1024x768"},
