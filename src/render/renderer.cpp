@@ -201,7 +201,7 @@ Image Renderer::make(const Request& request) {
     const PictureCost cost = estimate_cost(work);
     kept_->spent_in_vain += std::max(0.0, cost.transposed - cost.lists);
     kept_->lost_to_bounds += cost.transposed - cost.bounded;
-    statistics_.map_bytes += kept_->transposed.bounds.memory_bytes();
+    statistics_.map_bytes += kept_->transposed.bounds.memory_bytes() + kept_->transposed.cut_outs.bytes;
     for (const ShadowScratch& scratch : kept_->transposed.scratch) statistics_.map_bytes += scratch.memory_bytes();
   }
   return image;

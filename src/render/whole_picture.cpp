@@ -223,7 +223,9 @@ void WholePicture::ask_lights(const SampleGrid& grid, SeenPoints& seen) {
         }};
     clear_blocked(work, grid, moved, seen, statistics_.light_tests);
     if (has_holes()) {
-      clear_blocked_by_cut_outs(scene_, cut_outs_, places_, grid, executor_, moved, seen, statistics_.light_tests);
+      KeptCutOutLists* const kept = options_.map_memory == 0 ? &state_.cut_outs : nullptr;
+      clear_blocked_by_cut_outs(scene_, cut_outs_, places_, grid, executor_, moved, kept, seen,
+                                statistics_.light_tests);
     }
   }
   put_back_faces(moved, seen.points);

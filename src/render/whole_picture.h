@@ -8,6 +8,7 @@
 
 #include "material/material_table.h"
 #include "parallel/executor.h"
+#include "picture/cut_out_shadows.h"
 #include "picture/lit_points.h"
 #include "picture/nearest_faces.h"
 #include "picture/sample_grid.h"
@@ -27,6 +28,7 @@ struct TransposedState {
   std::unique_ptr<ClosedParts> closed;  ///< made when first needed
   std::vector<ShadowScratch> scratch;   ///< one a worker
   KeptBounds bounds;                    ///< of the lights, once they are made
+  KeptCutOutLists cut_outs;             ///< of the lights, if memory has no limit
 };
 
 /// All samples of a picture at once, or of bands of its rows: the camera's faces by the transposed way, the lights' by
