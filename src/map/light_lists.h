@@ -26,6 +26,11 @@ class LightLists {
     return std::visit([&](const auto& map) { return map.is_blocked(point, counters); }, map_);
   }
 
+  /// Whether the light falls on the side of the point's face that is seen: strictly.
+  bool is_before(const SurfacePoint& point) const {
+    return std::visit([&](const auto& map) { return map.side(point.face) * point.side > 0; }, map_);
+  }
+
   /// A SurfacePoint, or a Vector that was lifted off its face.
   template <class Point>
   bool is_lit(const Point& point, Counters* counters) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <numeric>
 
 #include "math/dvector.h"
 
@@ -49,11 +50,29 @@ void coarsen(double share, const Executor& executor, AskedPoints& points) {
   }
 }
 
+void resize(std::size_t count, SeenPoints& seen) {
+  for (auto* coordinates : {&seen.points.x, &seen.points.y, &seen.points.z}) coordinates->resize(count);
+  for (auto* numbers : {&seen.points.faces, &seen.points.samples}) numbers->resize(count);
+  seen.masks.resize(count * seen.stride);
+}
+
 }  // namespace
 
 const Vector& MovedPoints::position_of(std::uint32_t number) const {
   const auto place = std::lower_bound(numbers.begin(), numbers.end(), number) - numbers.begin();
   return positions[static_cast<std::size_t>(place)];
+}
+
+void add_places(MovedPoints& moved, SeenPoints& seen) {
+  if (moved.owners.empty()) return;
+  const std::size_t first = seen.points.size();
+  resize(first + moved.owners.size(), seen);
+  moved.numbers.resize(moved.owners.size());
+  std::iota(moved.numbers.begin(), moved.numbers.end(), static_cast<std::uint32_t>(first));
+  for (std::size_t k = 0; k < moved.owners.size(); ++k) {
+    seen.points.samples[first + k] = seen.points.samples[moved.owners[k]];
+    seen.points.faces[first + k] = seen.points.faces[moved.owners[k]];
+  }
 }
 
 void put_in_place(const MovedPoints& moved, const Executor& executor, AskedPoints& points) {
@@ -74,8 +93,15 @@ void put_in_place(const MovedPoints& moved, const Executor& executor, AskedPoint
   });
 }
 
-void put_back_faces(const MovedPoints& moved, AskedPoints& points) {
-  for (std::size_t k = 0; k < moved.numbers.size(); ++k) points.faces[moved.numbers[k]] = moved.faces[k];
+void give_back(const MovedPoints& moved, SeenPoints& seen) {
+  if (moved.numbers.empty()) return;
+  const std::size_t stride = seen.stride;
+  for (std::size_t k = 0; k < moved.numbers.size(); ++k) {
+    for (std::size_t byte = 0; byte < stride; ++byte) {
+      seen.masks[moved.owners[k] * stride + byte] |= seen.masks[moved.numbers[k] * stride + byte];
+    }
+  }
+  resize(moved.numbers.front(), seen);
 }
 
 }  // namespace facemap

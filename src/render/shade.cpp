@@ -24,7 +24,7 @@ struct Shader::Surface {
   DVector weights;        // of the corners
   DVector position;       // of the true point, rounded to double
   DVector normal;         // unit, on the camera's side
-  bool is_moved = false;  // by the shadow terminator fix: `moved` is asked instead of the true point
+  bool is_moved = false;  // by the shadow terminator fix: lights not before the face are asked about `moved`
   Vector moved{0};
 };
 
@@ -85,8 +85,11 @@ Shader::Surface Shader::surface_at(const Eye::Ray& ray, const Camera::Hit& hit) 
 bool Shader::is_lit(std::size_t light, const Surface& surface) {
   if (!reaches(lights_[light], surface.position)) return false;
   ++statistics_.light_queries;
-  return surface.is_moved ? lists_[light]->is_lit(surface.moved, &statistics_.light_tests)
-                          : lists_[light]->is_lit(surface.point, &statistics_.light_tests);
+  // Departs: Hanika asks all lights about the lifted point. Where the face looks at the light there is no terminator, and
+  // the lift may leave a shadow, or enter what stands on the face.
+  const LightLists& lists = *lists_[light];
+  return surface.is_moved && !lists.is_before(surface.point) ? lists.is_lit(surface.moved, &statistics_.light_tests)
+                                                             : lists.is_lit(surface.point, &statistics_.light_tests);
 }
 
 // Calls add(light) for each light that reaches the surface, in order, and sets its bit.

@@ -52,29 +52,49 @@ void add_masks(ShadeBatch& batch, std::size_t begin, const std::vector<simd::Lig
   }
 }
 
-// The moved points of all chunks, one after the other; `found` is used up.
+// Shares the lights between the true points, which those before the face are asked about, and the moved ones; drops
+// moved points from number `begin` on that no light is left for.
+void share_lights(std::size_t begin, SeenPoints& seen, FoundPoints& found) {
+  const std::size_t stride = seen.stride;
+  std::size_t kept = begin;
+  for (std::size_t k = begin; k < found.points.size(); ++k) {
+    std::uint8_t* facing = seen.masks.data() + found.points[k].owner * stride;
+    bool any = false;
+    for (std::size_t byte = 0; byte < stride; ++byte) {
+      const std::uint8_t wanted = found.masks[k * stride + byte];
+      const auto behind = static_cast<std::uint8_t>(wanted & ~facing[byte]);
+      facing[byte] = static_cast<std::uint8_t>(wanted & facing[byte]);
+      found.masks[kept * stride + byte] = behind;
+      any = any || behind != 0;
+    }
+    if (any) found.points[kept++] = found.points[k];
+  }
+  found.points.resize(kept);
+  found.masks.resize(kept * stride);
+}
+
+// The moved points of all chunks, one after the other, with places behind the seen ones; `found` is used up.
 MovedPoints join(std::vector<FoundPoints>& found, const Executor& executor, SeenPoints& seen) {
   std::vector<std::size_t> starts(found.size() + 1);
   for (std::size_t chunk = 0; chunk < found.size(); ++chunk) {
     starts[chunk + 1] = starts[chunk] + found[chunk].points.size();
   }
   MovedPoints moved;
-  moved.numbers.resize(starts.back());
+  moved.owners.resize(starts.back());
   moved.positions.resize(starts.back());
-  moved.faces.resize(starts.back());
+  std::vector<std::uint8_t> masks(starts.back() * seen.stride);
   executor.for_each(found.size(), [&](std::size_t chunk, int) {
     std::size_t i = starts[chunk];
-    const std::uint8_t* mask = found[chunk].masks.data();
+    std::copy(found[chunk].masks.begin(), found[chunk].masks.end(), masks.data() + i * seen.stride);
     for (const MovedPoint& point : found[chunk].points) {
-      moved.numbers[i] = point.owner;
-      moved.positions[i] = point.position;
-      moved.faces[i] = seen.points.faces[point.owner];
-      std::copy_n(mask, seen.stride, seen.masks.data() + point.owner * seen.stride);
-      mask += seen.stride;
-      ++i;
+      moved.owners[i] = point.owner;
+      moved.positions[i++] = point.position;
     }
     found[chunk] = {};
   });
+  const std::size_t seen_bytes = seen.masks.size();
+  add_places(moved, seen);
+  std::copy(masks.begin(), masks.end(), seen.masks.data() + seen_bytes);
   return moved;
 }
 
@@ -95,6 +115,7 @@ MovedPoints find_moved_points(const Scene& scene, const SampleGrid& grid, SeenPo
                      const std::size_t begin = found[chunk].points.size();
                      batch.find_moved(found[chunk].points);
                      add_masks(batch, begin, sources, all, options.planes.has(Plane::Lights), found[chunk]);
+                     share_lights(begin, seen, found[chunk]);
                    }
                  });
   return join(found, executor, seen);

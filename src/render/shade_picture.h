@@ -14,10 +14,10 @@
 
 namespace facemap {
 
-/// Finds the points that the shadow terminator fix lifts among the seen ones, and sets their masks to the lights that
-/// are to be asked about them. Unless light masks are wanted for themselves, lights that the shading normal is turned
-/// from are left out: they add nothing. None with flat normals or without the fix. Throws Error if a moved point is not
-/// finite.
+/// Finds the points that the shadow terminator fix lifts among the seen ones, and adds them behind these, with masks of
+/// the lights that are to be asked about them: those that are not strictly before their face. Unless light masks are
+/// wanted for themselves, lights that the shading normal is turned from are left out for both: they add nothing. Those
+/// without a light are left out. None with flat normals or without the fix. Throws Error if one is not finite.
 MovedPoints find_moved_points(const Scene& scene, const SampleGrid& grid, SeenPoints& seen,
                               const std::vector<Light>& lights, const Renderer::Options& options,
                               const Executor& executor);

@@ -228,7 +228,7 @@ void WholePicture::ask_lights(const SampleGrid& grid, SeenPoints& seen) {
                                 statistics_.light_tests);
     }
   }
-  put_back_faces(moved, seen.points);
+  give_back(moved, seen);
   statistics_.shade_ms += light_time.milliseconds();
 }
 

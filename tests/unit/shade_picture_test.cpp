@@ -191,24 +191,23 @@ Expected shade_singly(const Setting& setting, const MaterialTable* materials = n
 // Asks the lights' maps about the points whose bits are set, moved ones by their own positions.
 void ask_lights(const Setting& setting, const ListsOfLights& lights, const MovedPoints& moved, SeenPoints& seen) {
   const auto columns = static_cast<std::uint32_t>(setting.grid.columns());
-  std::size_t k = 0;  // of the next moved point
+  const std::size_t seen_count = seen.points.size() - moved.numbers.size();
   for (std::size_t i = 0; i < seen.points.size(); ++i) {
-    const std::uint32_t sample = seen.points.samples[i], face = seen.points.faces[i];
-    const Triangle triangle = triangle_of(setting.scene, face);
-    const Vector& K = setting.grid.frame.position();
-    const Vector d = setting.grid.direction(static_cast<int>(sample % columns), static_cast<int>(sample / columns));
-    const SurfacePoint point{K, d, triangle, static_cast<FaceId>(face), side(triangle, K)};
-    const bool is_moved = k < moved.numbers.size() && moved.numbers[k] == i;
+    const auto is_lit = [&](const LightLists& light) {
+      if (i >= seen_count) return light.is_lit(moved.position_of(static_cast<std::uint32_t>(i)), nullptr);
+      const std::uint32_t sample = seen.points.samples[i], face = seen.points.faces[i];
+      const Triangle triangle = triangle_of(setting.scene, face);
+      const Vector& K = setting.grid.frame.position();
+      const Vector d = setting.grid.direction(static_cast<int>(sample % columns), static_cast<int>(sample / columns));
+      return !light.is_blocked(SurfacePoint{K, d, triangle, static_cast<FaceId>(face), side(triangle, K)}, nullptr);
+    };
     for (std::size_t l = 0; l < lights.size(); ++l) {
       std::uint8_t& mask = seen.masks[i * seen.stride + l / 8];
-      if ((mask >> (l % 8) & 1) == 0) continue;
-      const bool lit =
-          is_moved ? lights[l]->is_lit(moved.positions[k], nullptr) : !lights[l]->is_blocked(point, nullptr);
-      if (!lit) mask &= static_cast<std::uint8_t>(~(1u << (l % 8)));
+      if ((mask >> (l % 8) & 1) != 0 && !is_lit(*lights[l])) mask &= static_cast<std::uint8_t>(~(1u << (l % 8)));
     }
-    k += is_moved;
   }
-  EXPECT_EQ(k, moved.numbers.size());
+  give_back(moved, seen);
+  EXPECT_EQ(seen.points.size(), seen_count);
 }
 
 bool same_bits(const Color& a, const Color& b) { return std::memcmp(&a, &b, sizeof(Color)) == 0; }
