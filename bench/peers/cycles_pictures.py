@@ -1,6 +1,6 @@
 # Everything that is compared of one scene: blender -b --factory-startup --python cycles_pictures.py -- JOB.json
 # Into the job's folder, as .npy, upper row first: color (linear), alpha, depth, lit_N for each light; ours.png as it
-# is; facts.json.
+# is; facts.json; albedo (linear) and normal.
 import json
 import os
 import sys
@@ -100,10 +100,16 @@ for number in range(len(lights)):
     total += render() - glow
 save("color", total)
 
+# Surfaces: their own colours, and their normals at the centres of pixels.
+turn_on(lights, None)
+cycles_scene.show_colors()
+save("albedo", render())
+cycles_scene.sample_pixels(1)
+cycles_scene.show_normals()
+save("normal", 2 * render()[:, :, :3] - 1)
+
 # Masks: what is at the centre of each pixel, on flat faces.
 set_smooth(False)
-cycles_scene.sample_pixels(1)
-turn_on(lights, None)
 layer = bpy.context.view_layer
 layer.material_override = material(distance)
 shot = render()

@@ -13,6 +13,7 @@ def import_model(path):
     bpy.ops.object.delete()
     if path.endswith(".obj"):
         bpy.ops.wm.obj_import(filepath=path, forward_axis="Y", up_axis="Z")
+        multiply_by_constants()
     else:
         import_gltf(path)
     for material in bpy.data.materials:
@@ -142,35 +143,81 @@ def sample_pixels(samples):
     cycles.filter_width = 0.01  # of the Gaussian: the least that there is
 
 
+def shader_trees():
+    """The nodes of each material, and which of them has the surface's colour, if that is known."""
+    for material in bpy.data.materials:
+        if material.use_nodes:
+            shaders = [n for n in material.node_tree.nodes if n.type in ("BSDF_PRINCIPLED", "BSDF_DIFFUSE")]
+            yield material.node_tree, shaders[0] if shaders else None
+
+
+def put_on(tree, shader):
+    """Makes a shader the one that counts."""
+    output = next(node for node in tree.nodes if node.type == "OUTPUT_MATERIAL")
+    tree.links.new(shader.outputs[0], output.inputs["Surface"])
+
+
+def color_of(shader):
+    return shader.inputs["Base Color" if shader.type == "BSDF_PRINCIPLED" else "Color"]
+
+
 def diffuse_only():
     """Makes each Principled material a Lambert surface of the colour and texture that the importer found."""
-    for material in bpy.data.materials:
-        tree = material.node_tree
-        shader = next((n for n in tree.nodes if n.type == "BSDF_PRINCIPLED"), None) if material.use_nodes else None
-        if shader is None:
-            continue
-        surface = tree.nodes.new("ShaderNodeBsdfDiffuse")
-        give_color(tree, shader.inputs["Base Color"], surface.inputs["Color"])
-        output = next(n for n in tree.nodes if n.type == "OUTPUT_MATERIAL")
-        tree.links.new(surface.outputs["BSDF"], output.inputs["Surface"])
+    for tree, shader in shader_trees():
+        if shader is not None and shader.type == "BSDF_PRINCIPLED":
+            surface = tree.nodes.new("ShaderNodeBsdfDiffuse")
+            copy_color(tree, color_of(shader), surface.inputs["Color"])
+            if shader.inputs["Normal"].is_linked:
+                tree.links.new(shader.inputs["Normal"].links[0].from_socket, surface.inputs["Normal"])
+            put_on(tree, surface)
+
+
+def show_colors():
+    """Makes each surface glow in its own colour."""
+    for tree, shader in shader_trees():
+        glow = tree.nodes.new("ShaderNodeEmission")
+        if shader is not None:
+            copy_color(tree, color_of(shader), glow.inputs["Color"])
+        put_on(tree, glow)
+
+
+def show_normals():
+    """Makes each surface glow by its shading normal in the world: -1 to 1 becomes 0 to 1."""
+    for tree, shader in shader_trees():
+        normal = tree.nodes.new("ShaderNodeNewGeometry").outputs["Normal"]
+        if shader is not None and shader.inputs["Normal"].is_linked:
+            normal = shader.inputs["Normal"].links[0].from_socket
+        half = tree.nodes.new("ShaderNodeVectorMath")
+        half.operation = "MULTIPLY_ADD"
+        tree.links.new(normal, half.inputs[0])
+        half.inputs[1].default_value = half.inputs[2].default_value = (0.5, 0.5, 0.5)
+        glow = tree.nodes.new("ShaderNodeEmission")
+        tree.links.new(half.outputs[0], glow.inputs["Color"])
+        put_on(tree, glow)
 
 
 def lambert():
     """Diffuse surfaces (of glTF's specular and glossiness) obey Lambert's law, not Oren's and Nayar's."""
-    for material in bpy.data.materials:
-        for shader in [n for n in material.node_tree.nodes if n.type == "BSDF_DIFFUSE"] if material.use_nodes else []:
+    for tree, _ in shader_trees():
+        for shader in [node for node in tree.nodes if node.type == "BSDF_DIFFUSE"]:
             shader.inputs["Roughness"].default_value = 0
 
 
-def give_color(tree, source, target):
-    """Links what is linked to `source`, times the constant that stands there: MTL's map_Kd multiplies Kd."""
+def copy_color(tree, source, target):
     target.default_value = source.default_value
-    if not source.is_linked:
-        return
-    product = tree.nodes.new("ShaderNodeMixRGB")
-    product.blend_type = "MULTIPLY"
-    product.inputs["Fac"].default_value = 1
-    tree.links.new(source.links[0].from_socket, product.inputs["Color1"])
-    constant = source.default_value
-    product.inputs["Color2"].default_value = constant if any(constant[:3]) else (1, 1, 1, 1)
-    tree.links.new(product.outputs["Color"], target)
+    if source.is_linked:
+        tree.links.new(source.links[0].from_socket, target)
+
+
+def multiply_by_constants():
+    """MTL's map_Kd multiplies Kd, unless that is black; the importer leaves Kd beside the texture, without effect."""
+    for tree, shader in shader_trees():
+        color = None if shader is None else color_of(shader)
+        if color is None or not color.is_linked or not any(color.default_value[:3]):
+            continue
+        product = tree.nodes.new("ShaderNodeMixRGB")
+        product.blend_type = "MULTIPLY"
+        product.inputs["Fac"].default_value = 1
+        product.inputs["Color2"].default_value = color.default_value
+        tree.links.new(color.links[0].from_socket, product.inputs["Color1"])
+        tree.links.new(product.outputs["Color"], color)

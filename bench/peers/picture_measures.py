@@ -1,4 +1,5 @@
-"""How two pictures of a scene differ: silhouettes, depth, shadow masks, colours. Planes are NumPy arrays, upper row first."""
+"""How two pictures of a scene differ: silhouettes, depth, shadow masks, colours,
+normals. Planes are NumPy arrays, upper row first."""
 import struct
 import zlib
 
@@ -66,6 +67,7 @@ def measure(folder, light_count):
     for light in range(light_count):
         edges |= edge_band(ours_lit(folder, light))
     measures.update(measure_colors(folder, edges))
+    measures.update(measure_surfaces(folder, both & ~widen(outline)))
     return measures
 
 
@@ -102,3 +104,17 @@ def measure_colors(folder, edges):
     inside = ~widen(edges)
     return {"mean": float(difference.mean()), "inner_mean": float(difference[inside].mean()),
             "far": percent(difference.max(axis=2) > CLEARLY_OTHER, inside)}
+
+
+def measure_surfaces(folder, inside):
+    ours, theirs = [to_levels(numpy.load(folder / f"{name}.npy")[:, :, :3]) for name in ("ours_albedo", "albedo")]
+    write_png(folder / "albedo.png", numpy.hstack((ours, theirs)))
+    normal, other = [unit(numpy.load(folder / f"{name}.npy")) for name in ("ours_normal", "normal")]
+    write_png(folder / "normal.png", 127.5 * (1 + numpy.hstack((normal, other))))
+    angle = numpy.degrees(numpy.arccos(numpy.clip((normal * other).sum(axis=2), -1, 1)))
+    return {"albedo": float(abs(ours - theirs)[inside].mean()), "normal": float(angle[inside].mean())}
+
+
+def unit(vectors):
+    vectors = vectors.astype(numpy.float64)
+    return vectors / numpy.maximum(numpy.linalg.norm(vectors, axis=2, keepdims=True), 1e-9)
