@@ -100,11 +100,11 @@ for number in range(len(lights)):
     total += render() - glow
 save("color", total)
 
-# Surfaces: their own colours, and their normals at the centres of pixels.
+# Surfaces: their own colours and their normals at the centres of pixels.
 turn_on(lights, None)
+cycles_scene.sample_pixels(1)
 cycles_scene.show_colors()
 save("albedo", render())
-cycles_scene.sample_pixels(1)
 cycles_scene.show_normals()
 save("normal", 2 * render()[:, :, :3] - 1)
 

@@ -11,8 +11,8 @@
 
 namespace facemap {
 
-/// Points that the shadow terminator fix (Hanika 2021) lifts off their faces: float32 points of no face, which the lights
-/// behind the face are asked about. They stand behind the seen points in the list of those that are asked.
+/// Points that the shadow terminator fix (Hanika 2021) lifts off their faces: float32 points of no face, which the
+/// lights behind the face are asked about. They stand behind the seen points in the list of those that are asked.
 struct MovedPoints {
   std::vector<std::uint32_t> numbers;  ///< ascending, their own among the asked points
   std::vector<std::uint32_t> owners;   ///< ascending, of the seen points that they are lifted from

@@ -85,8 +85,8 @@ Shader::Surface Shader::surface_at(const Eye::Ray& ray, const Camera::Hit& hit) 
 bool Shader::is_lit(std::size_t light, const Surface& surface) {
   if (!reaches(lights_[light], surface.position)) return false;
   ++statistics_.light_queries;
-  // Departs: Hanika asks all lights about the lifted point. Where the face looks at the light there is no terminator, and
-  // the lift may leave a shadow, or enter what stands on the face.
+  // Departs: Hanika asks all lights about the lifted point. Where the face looks at the light there is no terminator,
+  // and the lift may leave a shadow, or enter what stands on the face.
   const LightLists& lists = *lists_[light];
   return surface.is_moved && !lists.is_before(surface.point) ? lists.is_lit(surface.moved, &statistics_.light_tests)
                                                              : lists.is_lit(surface.point, &statistics_.light_tests);
