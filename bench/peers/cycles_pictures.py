@@ -1,6 +1,6 @@
 # Everything that is compared of one scene: blender -b --factory-startup --python cycles_pictures.py -- JOB.json
 # Into the job's folder, as .npy, upper row first: color (linear), alpha, depth, lit_N for each light; ours.png as it
-# is; facts.json; albedo (linear) and normal.
+# is; albedo (linear) and normal.
 import json
 import os
 import sys
@@ -74,6 +74,14 @@ def set_smooth(is_smooth):
             mesh.update()
 
 
+def add_light(kind, color, place=None, direction=None, angle=None):
+    if kind == "sun":
+        return cycles_scene.add_sun(direction, color)
+    if kind == "spot":
+        return cycles_scene.add_spot(place, direction, angle, color)
+    return cycles_scene.add_point_light(place, color)
+
+
 def turn_on(lights, which):
     for number, light in enumerate(lights):
         light.hide_render = number != which
@@ -81,11 +89,10 @@ def turn_on(lights, which):
 
 save("ours", read(os.path.join(job["folder"], "ours.png")))
 cycles_scene.import_model(job["model"])
-json.dump(cycles_scene.model_facts(), open(os.path.join(job["folder"], "facts.json"), "w"))
 cycles_scene.remove_repeated_faces()
 cycles_scene.look(job["camera"], job["look_at"], job["up"], job["field_angle"], job["size"])
 cycles_scene.use_cycles(2)
-lights = [cycles_scene.add_point_light(light[:3], light[3:]) for light in job["lights"]]
+lights = [add_light(**light) for light in job["lights"]]
 
 # Colours: one light at a time, for Cycles draws one light at random for each sample; light adds up.
 if job["model"].endswith(".obj"):

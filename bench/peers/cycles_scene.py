@@ -69,18 +69,6 @@ def meshes():
     return [thing for thing in bpy.data.objects if thing.type == "MESH"]
 
 
-def model_facts():
-    """The number of triangles and the box, from what was imported."""
-    triangles, low, high = 0, Vector([math.inf] * 3), Vector([-math.inf] * 3)
-    for thing in meshes():
-        triangles += sum(len(face.vertices) - 2 for face in thing.data.polygons)
-        for vertex in thing.data.vertices:
-            place = thing.matrix_world @ vertex.co
-            low = Vector(map(min, low, place))
-            high = Vector(map(max, high, place))
-    return {"triangles": triangles, "low": list(low), "high": list(high)}
-
-
 def look(position, look_at, up, field_angle, size):
     """A perspective camera; the field of view is from bottom to top, in degrees."""
     position, look_at = Vector(position), Vector(look_at)
@@ -100,19 +88,45 @@ def look(position, look_at, up, field_angle, size):
     scene.render.resolution_x, scene.render.resolution_y = size
 
 
-def add_point_light(position, color):
-    """A point light of no size that makes a white surface `color` bright at distance 1, straight on, and fades
-    with the square of the distance.
+def add_light(kind, color):
+    light = bpy.data.objects.new("light", bpy.data.lights.new("light", kind))
+    light.data.color = color
+    bpy.context.collection.objects.link(light)
+    return light
+
+
+def add_point_light(position, color, kind="POINT"):
+    """A light of no size that makes a white surface `color` bright at distance 1, straight on, and fades with the
+    square of the distance.
 
     P watts are P / (4 pi) watts a steradian, so P / (4 pi) watts a square unit at distance 1; a white Lambert
     surface sends back 1 / pi of that: 4 pi^2 watts make it 1.
     """
-    light = bpy.data.objects.new("light", bpy.data.lights.new("light", "POINT"))
+    light = add_light(kind, color)
     light.location = position
     light.data.shadow_soft_size = 0
-    light.data.color = color
     light.data.energy = 4 * math.pi**2
-    bpy.context.collection.objects.link(light)
+    return light
+
+
+def point(light, direction):
+    light.rotation_euler = Vector(direction).to_track_quat("-Z", "Y").to_euler()
+
+
+def add_spot(position, direction, angle, color):
+    """As bright within a cone of `angle` degrees, with a sharp edge: a spot's watts are those of the whole sphere."""
+    light = add_point_light(position, color, "SPOT")
+    light.data.spot_size, light.data.spot_blend = math.radians(angle), 0
+    point(light, direction)
+    return light
+
+
+def add_sun(direction, color):
+    """Makes a white surface `color` bright, straight on: pi watts a square unit, of which 1 / pi is sent back."""
+    light = add_light("SUN", color)
+    light.data.angle = 0
+    light.data.energy = math.pi
+    point(light, direction)
     return light
 
 

@@ -50,10 +50,17 @@ void coarsen(double share, const Executor& executor, AskedPoints& points) {
   }
 }
 
+// Without room to spare: there are millions.
+template <class Values>
+void resize(std::size_t count, Values& values) {
+  values.reserve(count);
+  values.resize(count);
+}
+
 void resize(std::size_t count, SeenPoints& seen) {
-  for (auto* coordinates : {&seen.points.x, &seen.points.y, &seen.points.z}) coordinates->resize(count);
-  for (auto* numbers : {&seen.points.faces, &seen.points.samples}) numbers->resize(count);
-  seen.masks.resize(count * seen.stride);
+  for (auto* coordinates : {&seen.points.x, &seen.points.y, &seen.points.z}) resize(count, *coordinates);
+  for (auto* numbers : {&seen.points.faces, &seen.points.samples}) resize(count, *numbers);
+  resize(count * seen.stride, seen.masks);
 }
 
 }  // namespace

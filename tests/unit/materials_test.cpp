@@ -330,18 +330,18 @@ struct Golden {
 };
 
 const Golden kGolden[] = {
-    {"diffuse", 0xd1309e4009270a44,
+    {"diffuse", 0xdce238db74d8894e,
      [](Material& m) {
        m.diffuse = {0.75f, 0.5f, 0.25f};
      }},
-    {"texture", 0x3d5f0c9a68de47fe, [](Material& m) { m.diffuse_map.image = 0; }},
-    {"phong", 0xad94ac0580b7fffa,
+    {"texture", 0x55382a61861e892f, [](Material& m) { m.diffuse_map.image = 0; }},
+    {"phong", 0xdde5dc14af808fd3,
      [](Material& m) {
        m.diffuse = Vector(0.4f);
        m.specular = Vector(0.5f);
        m.shininess = 30;
      }},
-    {"phong maps", 0xa4330c08e510fd7c,
+    {"phong maps", 0x53c8d2f71f8828d8,
      [](Material& m) {
        m.shininess = 60;
        m.specular = Vector(1);
@@ -350,13 +350,13 @@ const Golden kGolden[] = {
        m.emission = Vector(0.25f);
        m.emission_map.image = 1;
      }},
-    {"metal", 0x4600f3214b7472c7,
+    {"metal", 0xdc48472743a2d9ec,
      [](Material& m) {
        m.kind = Material::Kind::MetalRough;
        m.metallic = 1;
        m.roughness = 0.3f;
      }},
-    {"metal-rough maps", 0x9174ec112d59d417,
+    {"metal-rough maps", 0xdd518908eddf6b05,
      [](Material& m) {
        m.kind = Material::Kind::MetalRough;
        m.metallic = 1;
@@ -364,8 +364,8 @@ const Golden kGolden[] = {
        m.metallic_map.channel = 2;
        m.roughness_map.channel = 1;
      }},
-    {"normal map", 0xe06e08ba4e6aaad1, [](Material& m) { m.normal_map.image = 1; }},
-    {"bump map", 0x5cd7b329fb9e9f8e,
+    {"normal map", 0x9ed90e984f680d4a, [](Material& m) { m.normal_map.image = 1; }},
+    {"bump map", 0xbb6cf2ae3e428a4c,
      [](Material& m) {
        m.bump_map.image = 1;
        m.bump_map.wrap_u = TextureUse::Wrap::Mirror;
