@@ -14,6 +14,8 @@ def import_model(path):
     if path.endswith(".obj"):
         bpy.ops.wm.obj_import(filepath=path, forward_axis="Y", up_axis="Z")
         multiply_by_constants()
+        for image in bpy.data.images:  # without map_d an image's alpha says nothing, and leaves its colours alone
+            image.alpha_mode = "CHANNEL_PACKED"
     else:
         import_gltf(path)
     for material in bpy.data.materials:
