@@ -94,7 +94,8 @@ ParallelFaces::Sides ParallelFaces::sides(std::uint32_t id, const Asked& asked) 
   const float height = value[3] + face.z * asked.z;
   const float least = std::min({value[0], value[1], value[2]});
   const int beyond = height > face.plane_error ? 1 : height < -face.plane_error ? -1 : 0;
-  return {least<-face.edge_error, least> face.edge_error, beyond};
+  const bool surely_outside = -face.edge_error > least, surely_inside = least > face.edge_error;
+  return {surely_outside, surely_inside, beyond};
 }
 
 }  // namespace facemap
