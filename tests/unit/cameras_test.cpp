@@ -410,7 +410,9 @@ TEST(Cameras, AMadeUpViewHoldsTheScene) {
   for (const Shot& shot : all_shots()) {
     Options options = options_of(shot);
     View view = make_up_view(scene, shot.view);
-    if (view.is_parallel) EXPECT_EQ(view.height, 2 * scene.bounding_radius());
+    if (view.is_parallel) {
+      EXPECT_EQ(view.height, 2 * scene.bounding_radius());
+    }
     const std::vector<View> views = turntable(view, 3);
     for (const View& one : views) {
       EXPECT_EQ(one.is_parallel, view.is_parallel);
