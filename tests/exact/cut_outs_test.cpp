@@ -18,6 +18,7 @@
 #include "simd/target.h"
 #include "support/cut_out_scenes.h"
 #include "support/holes.h"
+#include "support/lenses.h"
 #include "support/oracle.h"
 #include "support/parallel_oracle.h"
 #include "support/queries.h"
@@ -205,7 +206,6 @@ class Session {
   }
 
   void try_picture(const Case& at) {
-    const View view = make_view(at);
     std::vector<Light> lights(static_cast<std::size_t>(random_.between(1, 9)));
     for (Light& light : lights) {
       light.position = test_scenes::make_origin(at.test, random_);
@@ -218,6 +218,12 @@ class Session {
     options.width = random_.between(1, 30);
     options.height = random_.between(1, 30);
     options.samples = random_.chance(0.2) ? 2 : 1;
+    View view = make_view(at);
+    if (random_.chance(0.3)) {
+      view.lens = random_lens(random_, 30).lens;
+      options.width = view.lens->width();
+      options.height = view.lens->height();
+    }
     if (random_.chance(0.2)) options.map_memory = 1;  // bands of few rows
     if (random_.chance(0.5)) options.light_maps = Renderer::LightMaps::Keep;
     std::optional<Image> first;
@@ -255,14 +261,17 @@ class Session {
       sun_truths.emplace_back(at.oracle, light.kind == Light::Kind::Directional ? light.direction : Vector(0, 0, 1));
     }
     const SpaceVector frame = SpaceVector::looking_at(view.position, view.look_at, view.up);
-    const Projection projection(view.projection, view.field_angle, options.width, options.height);
+    const Lens lens = view.lens ? *view.lens
+                      : view.projection == ProjectionKind::Plane
+                          ? Lens::plane(view.field_angle, options.width, options.height)
+                          : Lens::surface(view.field_angle, options.width, options.height);
     const Mesh& mesh = at.scene.mesh();
     for (int y = 0; y < image.height; ++y) {
       for (int x = 0; x < image.width; ++x) {
         const int n = options.samples;
         const MapPoint point(x / n + (x % n + 0.5) / n, y / n + (y % n + 0.5) / n);
         Vector d(0);
-        if (projection.has_direction(point)) d = Vector(frame.world_from_local(projection.local_from_map(point)));
+        if (const auto local = lens.direction(point)) d = Vector(frame.world_from_local(*local));
         const std::size_t i = static_cast<std::size_t>(y) * image.width + x;
         ++rays_;
         const oracle::Hit truth = eye_truth.nearest(d);
