@@ -16,7 +16,7 @@ namespace facemap {
 /// The lights that add to what some samples see.
 struct SampleLights {
   std::span<const std::uint32_t> samples;
-  std::vector<std::uint8_t> masks;  ///< `stride` bytes each
+  std::span<const std::uint8_t> masks;  ///< `stride` bytes each
   std::size_t stride;
 
   const std::uint8_t* mask(std::size_t i) const { return masks.data() + i * stride; }

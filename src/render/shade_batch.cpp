@@ -170,7 +170,6 @@ void ShadeBatch::find_lights_of_moved(const std::vector<simd::LightSource>& ligh
 
 void ShadeBatch::keep_lights_before(const std::vector<simd::LightSource>& lights, std::uint8_t* masks,
                                     std::size_t stride) {
-  find_surfaces(some_smooth_);
   for (std::size_t byte = 0; byte < stride; ++byte) {
     const std::size_t first = byte * 8;
     const int count = static_cast<int>(std::min<std::size_t>(8, lights.size() - first));

@@ -59,7 +59,7 @@ class ShadeBatch {
   /// Clears the bits of lights whose cone or range does not hold the point, in `stride` bytes for each point taken.
   void clear_unreached(const std::vector<simd::LightSource>& lights, std::uint8_t* masks, std::size_t stride);
 
-  /// Clears the bits of lights that the shading normal of a point taken is turned from, `stride` bytes a point.
+  /// Clears the bits of lights that the shading normal of a point shaded is turned from, `stride` bytes a point.
   void keep_lights_before(const std::vector<simd::LightSource>& lights, std::uint8_t* masks, std::size_t stride);
 
   /// Radiance of all points taken, from what surrounds them and from the lights of each one's mask, `stride` bytes a

@@ -159,31 +159,19 @@ void shade_points(const Scene& scene, const SampleGrid& grid, const SeenPoints& 
                   const Renderer::Options& options, const Executor& executor, std::span<Color> colors,
                   const MaterialTable* materials) {
   shade_all(scene, grid, seen, lights, options, executor, materials,
-            [&](const ShadeBatch& batch, std::size_t) { batch.store_colors(colors); });
+            [&](ShadeBatch& batch, std::size_t) { batch.store_colors(colors); });
 }
 
-std::vector<Color> colors_of_points(const Scene& scene, const SampleGrid& grid, const SeenPoints& seen,
-                                    const std::vector<Light>& lights, const Renderer::Options& options,
-                                    const Executor& executor, const MaterialTable* materials) {
-  std::vector<Color> colors(seen.points.size());
-  shade_all(scene, grid, seen, lights, options, executor, materials,
-            [&](const ShadeBatch& batch, std::size_t first) { batch.store_in_order(colors.data() + first); });
-  return colors;
-}
-
-std::vector<std::uint8_t> lights_that_add(const Scene& scene, const SampleGrid& grid, const SeenPoints& seen,
-                                          const std::vector<Light>& lights, const Renderer::Options& options,
-                                          const Executor& executor) {
+PointLooks look_at_points(const Scene& scene, const SampleGrid& grid, const SeenPoints& seen,
+                          const std::vector<Light>& lights, const Renderer::Options& options, const Executor& executor,
+                          const MaterialTable* materials) {
+  PointLooks looks{std::vector<Color>(seen.points.size()), seen.masks};
   const std::vector<simd::LightSource> sources = light_sources(lights, options.falloff);
-  std::vector<std::uint8_t> masks = seen.masks;
-  for_each_chunk(scene, grid, seen.points, options.normals == Renderer::Normals::Smooth, nullptr, executor,
-                 [&](ShadeBatch& batch, std::size_t first, std::size_t end, std::size_t) {
-                   for (std::size_t count = 0; first < end; first += count) {
-                     count = batch.take(seen.points, first, end);
-                     batch.keep_lights_before(sources, masks.data() + first * seen.stride, seen.stride);
-                   }
-                 });
-  return masks;
+  shade_all(scene, grid, seen, lights, options, executor, materials, [&](ShadeBatch& batch, std::size_t first) {
+    batch.store_in_order(looks.colors.data() + first);
+    batch.keep_lights_before(sources, looks.masks.data() + first * seen.stride, seen.stride);
+  });
+  return looks;
 }
 
 }  // namespace facemap

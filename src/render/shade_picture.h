@@ -34,14 +34,15 @@ void shade_points(const Scene& scene, const SampleGrid& grid, const SeenPoints& 
                   const Renderer::Options& options, const Executor& executor, std::span<Color> colors,
                   const MaterialTable* materials = nullptr);
 
-/// The same colours, one a seen point.
-std::vector<Color> colors_of_points(const Scene& scene, const SampleGrid& grid, const SeenPoints& seen,
-                                    const std::vector<Light>& lights, const Renderer::Options& options,
-                                    const Executor& executor, const MaterialTable* materials = nullptr);
+/// Colours and lights of the seen points, in their order.
+struct PointLooks {
+  std::vector<Color> colors;
+  std::vector<std::uint8_t> masks;  ///< theirs, without the lights that the shading normal is turned from
+};
 
-/// The masks of the seen points without the lights that the shading normal is turned from: they add nothing.
-std::vector<std::uint8_t> lights_that_add(const Scene& scene, const SampleGrid& grid, const SeenPoints& seen,
-                                          const std::vector<Light>& lights, const Renderer::Options& options,
-                                          const Executor& executor);
+/// The same colours, and which lights add to them.
+PointLooks look_at_points(const Scene& scene, const SampleGrid& grid, const SeenPoints& seen,
+                          const std::vector<Light>& lights, const Renderer::Options& options, const Executor& executor,
+                          const MaterialTable* materials = nullptr);
 
 }  // namespace facemap

@@ -21,7 +21,6 @@ namespace facemap {
 
 class DividedPixels;
 class EdgePixels;
-struct SampleLights;
 
 /// What the transposed strategy keeps from picture to picture of one scene.
 struct TransposedState {
@@ -73,10 +72,10 @@ class WholePicture {
   void ask_lights(const SampleGrid& grid, SeenPoints& seen);
   bool has_holes() const { return cut_outs_ != nullptr && cut_outs_->any(); }
   Image empty_image(int per_side) const;
-  SampleLights lights_of(const Seen& seen) const;
   void paint_centres(EdgePixels& edges, Image& image);
   NearestFaces faces_of_parts(const SampleGrid& grid);
-  void divide(const SampleGrid& grid, int rows, NearestFaces nearest, EdgePixels& edges, DividedPixels& divided);
+  void divide(const SampleGrid& grid, int rows, NearestFaces nearest, bool spreads, EdgePixels& edges,
+              DividedPixels& divided);
   void put_planes(Seen&& seen, Image& image) const;
   void report(double share, const char* phase);
 

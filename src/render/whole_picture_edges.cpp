@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstddef>
+#include <span>
 
 #include "render/divided_pixels.h"
 #include "render/edge_pixels.h"
@@ -42,7 +43,7 @@ Image WholePicture::paint_edges() {
       if (is_first) edges.find_edges(grid, rows, nearest.faces);
       if (is_first && keeps_faces) kept = {nearest.faces, nearest.loose};
       edges.keep_divided(grid, rows, nearest.faces);
-      divide(grid, rows, std::move(nearest), edges, divided);
+      divide(grid, rows, std::move(nearest), round < EdgePixels::kRounds, edges, divided);
       bands_done_ = std::min(bands_done_ + 1, band_count_ - 1);
     }
   }
@@ -54,21 +55,18 @@ Image WholePicture::paint_edges() {
   return image;
 }
 
-SampleLights WholePicture::lights_of(const Seen& seen) const {
-  return {seen.points.points.samples, lights_that_add(scene_, seen.grid, seen.points, lights_, options_, executor_),
-          seen.points.stride};
-}
-
 void WholePicture::paint_centres(EdgePixels& edges, Image& image) {
   for (const SampleGrid& band : bands(1)) {
     const SampleGrid grid = with_directions(band);
     Seen seen = see(grid);
     const Stopwatch shade_time;
-    colors_.assign(grid.count(), options_.background);
-    shade_points(scene_, grid, seen.points, lights_, options_, executor_, colors_, materials_);
-    std::copy(colors_.begin(), colors_.end(),
-              image.pixels.begin() + static_cast<std::ptrdiff_t>(first_row_of(grid)) * image.width);
-    edges.set_centres(grid, seen.faces, lights_of(seen), colors_);
+    const PointLooks looks = look_at_points(scene_, grid, seen.points, lights_, options_, executor_, materials_);
+    const UnsetVector<std::uint32_t>& samples = seen.points.points.samples;
+    const std::span<Color> colors(image.pixels.data() + first_row_of(grid) * static_cast<std::size_t>(image.width),
+                                  grid.count());
+    std::fill(colors.begin(), colors.end(), options_.background);
+    for (std::size_t i = 0; i < samples.size(); ++i) colors[samples[i]] = looks.colors[i];
+    edges.set_centres(grid, seen.faces, {samples, looks.masks, seen.points.stride}, colors);
     put_planes(std::move(seen), image);
     statistics_.shade_ms += shade_time.milliseconds();
     ++bands_done_;
@@ -95,15 +93,15 @@ NearestFaces WholePicture::faces_of_parts(const SampleGrid& grid) {
 }
 
 // `rows` rows of pixels; the grid may have one more, for what is known of its neighbours.
-void WholePicture::divide(const SampleGrid& grid, int rows, NearestFaces nearest, EdgePixels& edges,
+void WholePicture::divide(const SampleGrid& grid, int rows, NearestFaces nearest, bool spreads, EdgePixels& edges,
                           DividedPixels& divided) {
   const Seen seen = see(grid, std::move(nearest));
   const Stopwatch shade_time;
-  const std::vector<Color> colors =
-      colors_of_points(scene_, grid, seen.points, lights_, options_, executor_, materials_);
+  const PointLooks looks = look_at_points(scene_, grid, seen.points, lights_, options_, executor_, materials_);
+  const UnsetVector<std::uint32_t>& samples = seen.points.points.samples;
   const DividedPlaces places = edges.places_of_divided(grid, rows);
-  edges.spread(grid, rows, places, seen.faces, lights_of(seen));
-  divided.take(edges.first_pixel(grid), places, seen.points.points.samples, colors, options_.background);
+  if (spreads) edges.spread(grid, rows, places, seen.faces, {samples, looks.masks, seen.points.stride});
+  divided.take(edges.first_pixel(grid), places, samples, looks.colors, options_.background);
   statistics_.shade_ms += shade_time.milliseconds();
 }
 
