@@ -14,10 +14,11 @@ constexpr double kClearance = 0x1p-10, kRounding = 0x1p-20;
 
 double size_of(const DVector& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
 
-double front_of(const Scene& scene, const SpaceVector& frame) {
+// `extent`: how far from the sight a ray of the picture may be, world units.
+double front_of(const Scene& scene, const SpaceVector& frame, double extent) {
   const DVector position(frame.position()), centre = scene.centre();
   const double radius = scene.bounding_radius();
-  const double sizes = size_of(position) + size_of(centre) + radius;
+  const double sizes = size_of(position) + size_of(centre) + radius + extent;
   const double nearest = dot(centre - position, frame.axis_z()) - radius;
   return std::min(0.0, nearest - radius * kClearance - sizes * kRounding);
 }
@@ -37,7 +38,7 @@ ParallelEye::ParallelEye(const Scene& scene, const View& view, const Renderer::O
       half_width_(options.width * 0.5),
       half_height_(options.height * 0.5),
       pixel_(view.height / options.height),
-      front_(front_of(scene, frame_)) {}
+      front_(front_of(scene, frame_, pixel_ * (half_width_ + half_height_))) {}
 
 Eye::Ray ParallelEye::ray(const MapPoint& place) const {
   const DVector local((place.x - half_width_) * pixel_, (half_height_ - place.y) * pixel_, front_);

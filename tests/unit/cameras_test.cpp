@@ -390,6 +390,7 @@ TEST(Orthographic, PlacesAndDepthsAreThoseOfTheCameraPlane) {
     for (int column = 0; column < 60; ++column) {
       const auto pixel = static_cast<std::size_t>(row * 60 + column);
       const double x = (column + 0.5 - 30) * 0.1, y = (20 - row - 0.5) * 0.1;
+      if (std::fabs(std::fabs(x + y) - 2) < 1e-9) continue;  // on an edge, up to rounding
       const FaceId should = x > 0.5 && y > 0.5 && x + y < 2 ? 0 : x > -1.5 && y > -1.5 && x + y < -2 ? 1 : kNoFace;
       ASSERT_EQ(image.ids[pixel], should) << column << " " << row;
       if (should == kNoFace) continue;
