@@ -6,11 +6,11 @@
 #include <stdlib.h>
 
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <functional>
 
 #include "simd/target.h"
+#include "support/golden.h"
 
 // What is read back from a file of each format: libraries may compress differently, numbers and levels are the same.
 
@@ -20,30 +20,13 @@ using namespace facemap;
 namespace fs = std::filesystem;
 using Bytes = std::vector<std::uint8_t>;
 
-/// FNV-1a. NaN has one bit pattern: files need not keep others.
-class Hash {
- public:
-  void add(std::uint32_t bits) {
-    for (int shift = 0; shift < 32; shift += 8) value_ = (value_ ^ (bits >> shift & 255)) * 0x100000001b3u;
-  }
-  void add(float value) {
-    std::uint32_t bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    add(std::isnan(value) ? 0x7fc00000u : bits);
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325u;
-};
-
 std::uint64_t hash_of_file(const Bytes& bytes) {
   std::string name = (fs::temp_directory_path() / "facemap-golden-XXXXXX").string();
   const fs::path folder = mkdtemp(name.data());
   write_file(folder / "file", bytes);
   const PictureChannels picture = read_picture(folder / "file");
   fs::remove_all(folder);
-  Hash hash;
+  golden::Hash hash;
   for (const auto& channel : picture.channels) {
     std::visit(
         [&](const auto& values) {
@@ -60,13 +43,13 @@ Bytes exr_of_planes(const Image& image) {
   return encode_exr(layers);
 }
 
-struct Golden {
+struct GoldenFile {
   const char* name;
   std::uint64_t hash;
   std::function<Bytes(const Image&)> encode;
 };
 
-const Golden kGolden[] = {
+const GoldenFile kGolden[] = {
     {"png", 0x31482b84325acfac, [](const Image& image) { return encode_png(image); }},
     {"png 16", 0xc66c432d6aff43e5,
      [](const Image& image) {
@@ -109,8 +92,8 @@ TEST(GoldenFiles, OfEachFormatHoldTheSameNumbersOnEveryTarget) {
   for (const simd::Target target : simd::supported_targets()) {
     simd::set_active_target(target);
     const Image image = Renderer(scene, view, lights, options).render();
-    for (const Golden& golden : kGolden) {
-      EXPECT_EQ(hash_of_file(golden.encode(image)), golden.hash) << golden.name << " " << simd::name_of(target);
+    for (const GoldenFile& file : kGolden) {
+      EXPECT_EQ(hash_of_file(file.encode(image)), file.hash) << file.name << " " << simd::name_of(target);
     }
   }
   simd::set_active_target(before);
