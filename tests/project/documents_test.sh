@@ -9,3 +9,12 @@ for page in README.md CONTRIBUTING.md docs/*.md; do
   echo "== $page"
   echo "$commands" | sh -eux
 done
+
+# The gallery's pictures are those that its commands have just made.
+for picture in docs/figures/gallery/*.png; do
+  echo "== $picture"
+  build/release/bin/facemap compare "$picture" "out/gallery/${picture##*/}" || {
+    echo "$picture differs: scripts/figures gallery draws it anew" >&2
+    exit 1
+  }
+done
