@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "render/crop_margin.h"
+#include "render/filtered_rows.h"
 #include "render/picture_frame.h"
 
 namespace facemap {
@@ -9,28 +11,7 @@ namespace {
 
 constexpr int kRowsPerReport = 8;
 
-// The same pixels and one more on every side, as far as the picture goes.
-PixelBox with_neighbours(const PixelBox& box, const Renderer::Options& options) {
-  const int left = std::max(0, box.x - 1), top = std::max(0, box.y - 1);
-  const int right = std::min(options.width, box.x + box.width + 1);
-  const int bottom = std::min(options.height, box.y + box.height + 1);
-  return {left, top, right - left, bottom - top};
-}
-
-// Rows and columns of a plane with `size` values a pixel.
-template <class T>
-std::vector<T> cut_out(const std::vector<T>& plane, std::size_t size, const PixelBox& from, const PixelBox& part) {
-  std::vector<T> result;
-  if (plane.empty()) return result;
-  for (int y = part.y; y < part.y + part.height; ++y) {
-    const std::size_t first = static_cast<std::size_t>(y - from.y) * static_cast<std::size_t>(from.width) +
-                              static_cast<std::size_t>(part.x - from.x);
-    const auto begin = plane.begin() + static_cast<std::ptrdiff_t>(first * size);
-    result.insert(result.end(), begin,
-                  begin + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(part.width) * size));
-  }
-  return result;
-}
+constexpr int kRowsOfBand = 16;  // of pixels whose samples are kept until they are filtered
 
 }  // namespace
 
@@ -39,7 +20,7 @@ Painter::Painter(const Eye& eye, std::span<const simd::LightSource> lights, cons
                  Report report)
     : eye_(eye), options_(options), executor_(executor), report_(std::move(report)) {
   const bool edges = options.sampling == Renderer::Sampling::Edges;
-  made_ = edges ? with_neighbours(made_pixels(options), options) : made_pixels(options);
+  made_ = pixels_about_crop(options);
   image_.width = made_.width;
   image_.height = made_.height;
   image_.light_count = static_cast<int>(lights.size());
@@ -54,17 +35,59 @@ Painter::Painter(const Eye& eye, std::span<const simd::LightSource> lights, cons
 }
 
 Image Painter::paint(Renderer::Statistics& statistics) {
-  if (options_.sampling == Renderer::Sampling::Edges) {
-    for_each_row(0, 0.5, [&](int y, Worker& worker) { paint_row(y, 1, worker); });
+  const bool by_edges = options_.sampling == Renderer::Sampling::Edges;
+  const bool is_box = options_.filter == Renderer::Filter::Box;
+  if (by_edges) for_each_row(0, 0.5, [&](int y, Worker& worker) { paint_row(y, 1, worker); });
+  if (!is_box) {
+    filter_samples(by_edges ? 0.5 : 0);
+  } else if (by_edges) {
     for_each_row(0.5, 0.5, [&](int y, Worker& worker) { upsample_edges(y, worker); });
-    if (!options_.planes.has(Plane::Id)) image_.ids = {};
-    if (!options_.planes.has(Plane::Lights)) image_.lights = {};
-    cut_out_made();
   } else {
     for_each_row(0, 1, [&](int y, Worker& worker) { paint_row(y, options_.samples, worker); });
   }
+  if (!options_.planes.has(Plane::Id)) image_.ids = {};
+  if (!options_.planes.has(Plane::Lights)) image_.lights = {};
   add_counts(statistics);
-  return std::move(image_);
+  return cut(image_, made_, made_pixels(options_));
+}
+
+// Each pixel from the samples about it: a pixel that is not divided counts as so many equal ones.
+void Painter::filter_samples(double done_before) {
+  const int n = options_.samples;
+  FilteredRows filtered(PixelFilter(options_.filter, options_.filter_width, n), made_.width, made_.height);
+  const std::size_t row_length = static_cast<std::size_t>(made_.width) * static_cast<std::size_t>(n);
+  std::vector<Color> samples, pixels(image_.pixels.size());
+  for (int first = 0; first < made_.height; first += kRowsOfBand) {
+    const int rows = std::min(kRowsOfBand, made_.height - first);
+    samples.resize(row_length * static_cast<std::size_t>(rows * n));
+    executor_.for_each(static_cast<std::size_t>(rows), [&](std::size_t row, int worker) {
+      put_samples(first + static_cast<int>(row), *workers_[static_cast<std::size_t>(worker)],
+                  samples.data() + row * static_cast<std::size_t>(n) * row_length);
+    });
+    filtered.add(rows * n, samples, executor_, pixels.data());
+    report_(done_before + (1 - done_before) * (first + rows) / made_.height);
+  }
+  image_.pixels = std::move(pixels);
+}
+
+// The samples of a row of pixels, row by row.
+void Painter::put_samples(int y, Worker& worker, Color* samples) {
+  const int n = options_.samples;
+  const bool by_edges = options_.sampling == Renderer::Sampling::Edges;
+  const std::size_t row_length = static_cast<std::size_t>(made_.width) * static_cast<std::size_t>(n);
+  for (int x = 0; x < made_.width; ++x) {
+    const bool is_divided = !by_edges || may_hold_edge(x, y);
+    if (by_edges && is_divided) ++worker.statistics.upsampled_pixels;
+    for (int j = 0; j < n; ++j) {
+      Color* const row = samples + static_cast<std::size_t>(j) * row_length + static_cast<std::size_t>(x * n);
+      for (int i = 0; i < n; ++i)
+        row[i] = is_divided ? sample_of_grid(x, y, i, j, n, worker) : image_.pixels[index(x, y)];
+    }
+    if (!by_edges && (!image_.ids.empty() || !image_.lights.empty())) {
+      worker.shader.shade(MapPoint(made_.x + x + 0.5, made_.y + y + 0.5), 1, worker.sample);
+      store_planes(index(x, y), worker.sample);
+    }
+  }
 }
 
 Image Painter::look(Renderer::Statistics& statistics) {
@@ -97,16 +120,6 @@ void Painter::add_counts(Renderer::Statistics& statistics) const {
     statistics.camera_tests += worker->statistics.camera_tests;
     statistics.light_tests += worker->statistics.light_tests;
   }
-}
-
-// Leaves the neighbours out that edges were found with.
-void Painter::cut_out_made() {
-  const PixelBox part = made_pixels(options_);
-  image_.pixels = cut_out(image_.pixels, 1, made_, part);
-  image_.ids = cut_out(image_.ids, 1, made_, part);
-  image_.lights = cut_out(image_.lights, static_cast<std::size_t>(image_.light_bytes()), made_, part);
-  image_.width = part.width;
-  image_.height = part.height;
 }
 
 // Whether it is of those that are asked for.
@@ -148,15 +161,20 @@ void Painter::store_planes(std::size_t pixel, const Sample& sample) {
   }
 }
 
+const Color& Painter::sample_of_grid(int x, int y, int i, int j, int samples, Worker& worker) {
+  const MapPoint place(made_.x + x + (i + 0.5) / samples, made_.y + y + (j + 0.5) / samples);
+  worker.shader.shade(place, 1.0 / samples, worker.grid_sample);
+  return worker.grid_sample.color;
+}
+
 Color Painter::mean_of_grid(int x, int y, int samples, Worker& worker) {
   double r = 0, g = 0, b = 0;
   for (int j = 0; j < samples; ++j) {
     for (int i = 0; i < samples; ++i) {
-      const MapPoint place(made_.x + x + (i + 0.5) / samples, made_.y + y + (j + 0.5) / samples);
-      worker.shader.shade(place, 1.0 / samples, worker.grid_sample);
-      r += worker.grid_sample.color.r;
-      g += worker.grid_sample.color.g;
-      b += worker.grid_sample.color.b;
+      const Color& color = sample_of_grid(x, y, i, j, samples, worker);
+      r += color.r;
+      g += color.g;
+      b += color.b;
     }
   }
   const double count = samples * samples;

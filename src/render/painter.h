@@ -46,9 +46,11 @@ class Painter {
   void look_at_row(int y, Worker& worker);
   void add_counts(Renderer::Statistics& statistics) const;
   void upsample_edges(int y, Worker& worker);
-  void cut_out_made();
+  void filter_samples(double done_before);
+  void put_samples(int y, Worker& worker, Color* samples);
   bool is_made(int x, int y) const;
   void store_planes(std::size_t pixel, const Sample& sample);
+  const Color& sample_of_grid(int x, int y, int i, int j, int samples, Worker& worker);
   Color mean_of_grid(int x, int y, int samples, Worker& worker);
   bool may_hold_edge(int x, int y) const;
   bool same_lights(std::size_t i, std::size_t j) const;
@@ -63,7 +65,7 @@ class Painter {
   Report report_;
   std::mutex reporting_;
   int rows_done_ = 0;
-  PixelBox made_;  // of the picture; with edges, those that are looked at: one more on every side
+  PixelBox made_;  // of the picture: those that are asked for, and those about them that are looked at
   std::vector<std::unique_ptr<Worker>> workers_;
   Image image_;
 };

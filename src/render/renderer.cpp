@@ -60,9 +60,6 @@ void validate(const Renderer::Options& options, const std::vector<Light>& lights
   if (!(options.filter_width > 0) || !(options.filter_width <= 16)) {
     throw Error("the filter's width must be above 0 and at most 16 pixels");
   }
-  if (options.filter != Renderer::Filter::Box && options.builder == Builder::Fill) {
-    throw Error("the published builder (fill) knows the box filter alone");
-  }
   if (!is_valid(options.background)) throw Error("background must be finite and not negative");
   if (!is_valid(options.ambient) || !is_valid(options.sky_up) || !is_valid(options.sky_down)) {
     throw Error("ambient and sky colours must be finite and not negative");

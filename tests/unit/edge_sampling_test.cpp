@@ -70,6 +70,57 @@ Mesh ball_on_floor(int rings, bool smooth) {
   return mesh;
 }
 
+// Sample by sample (edges of one sample a pixel are) and all together.
+TEST(EdgeSampling, FiltersAreTheSameSampleBySample) {
+  const Scene scene(ball_on_floor(8, true));
+  Renderer::Options options = edges(61, 1);
+  options.filter = Filter::BlackmanHarris;
+  options.filter_width = 3.5;
+  for (const bool is_part : {false, true}) {
+    if (is_part) options.crop = PixelBox{7, 20, 30, 25};
+    options.sampling = Renderer::Sampling::Edges;
+    const Image one_by_one = make(scene, options).image;
+    options.sampling = Renderer::Sampling::Grid;
+    EXPECT_EQ(one_by_one.pixels, make(scene, options).image.pixels);
+  }
+}
+
+TEST(EdgeSampling, OrthographicPicturesAreFiltered) {
+  const Scene scene(ball_on_floor(8, false));
+  View view;
+  view.is_parallel = true;
+  view.height = 5;
+  view.position = {3, 4, 5};
+  view.look_at = {0, -0.5, 0};
+  for (const auto sampling : {Renderer::Sampling::Edges, Renderer::Sampling::Grid}) {
+    Renderer::Options options = edges(48, 3);
+    options.sampling = sampling;
+    const auto make_one = [&](int threads) {
+      options.threads = threads;
+      return Renderer(scene, view, make_up_lights(scene), options).render();
+    };
+    const Image box = make_one(1);
+    options.filter = Filter::BlackmanHarris;
+    options.filter_width = 2;
+    const Image whole = make_one(1);
+    EXPECT_NE(whole.pixels, box.pixels);
+    EXPECT_EQ(whole.pixels, make_one(3).pixels);
+    for (const std::size_t corner : {std::size_t{0}, whole.pixels.size() - 1}) {
+      EXPECT_EQ(whole.pixels[corner], box.pixels[corner]) << "where all samples are of the background";
+    }
+    options.crop = PixelBox{11, 5, 20, 30};
+    const Image part = make_one(2);
+    ASSERT_EQ(part.pixels.size(), 600u);
+    for (int y = 0; y < 30; ++y) {
+      for (int x = 0; x < 20; ++x) {
+        ASSERT_EQ(part.pixels[static_cast<std::size_t>(y * 20 + x)],
+                  whole.pixels[static_cast<std::size_t>((y + 5) * 48 + x + 11)])
+            << x << ", " << y;
+      }
+    }
+  }
+}
+
 TEST(EdgeSampling, ThreadsMemoryAndStrategyChangeNothing) {
   for (const bool smooth : {false, true}) {
     const Scene scene(ball_on_floor(12, smooth));
