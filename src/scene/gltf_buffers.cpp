@@ -59,7 +59,7 @@ void GltfBuffers::fill(Buffer& buffer, std::uint32_t index, const GltfValue& val
 }
 
 void GltfBuffers::read_file(Buffer& buffer, const GltfValue& uri) {
-  const UriResult<std::filesystem::path> found = file_inside(file_.directory, uri.as_text());
+  const UriResult<std::filesystem::path> found = find_file(file_.directory, uri.as_text(), file_.limits.allow_outside);
   const std::string shown = "\"" + printable(uri.as_text()) + "\"";
   if (!found.value) uri.fail(found.leads_out ? Cause::NotAllowed : Cause::CannotOpen, shown + ": " + found.reason);
   const std::uint64_t left = file_.limits.max_bytes - total_;

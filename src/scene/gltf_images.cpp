@@ -92,7 +92,8 @@ bool GltfImages::read_image(const GltfValue& value, TextureImage& image) {
 
 bool GltfImages::find_file(const GltfValue& uri, TextureImage& image) {
   image.name = uri.as_text();
-  const UriResult<std::filesystem::path> found = file_inside(file_.directory, image.name);
+  const UriResult<std::filesystem::path> found =
+      facemap::find_file(file_.directory, image.name, file_.limits.allow_outside);
   if (found.value) {
     image.file = *found.value;
   } else if (found.leads_out) {

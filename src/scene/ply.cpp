@@ -77,7 +77,7 @@ class PlyReader {
       Material material;
       material.name = file;
       material.diffuse = Vector(1);
-      const UriResult<std::filesystem::path> found = find_in_folder(directory_, file);
+      const UriResult<std::filesystem::path> found = find_in_folder(directory_, file, limits_.allow_outside);
       if (found.value) {
         material.diffuse_map.image = static_cast<std::uint32_t>(model_.images.size());
         model_.images.push_back({file, *found.value, {}});

@@ -78,13 +78,13 @@ bool is_below(const fs::path& path, const fs::path& folder) {
 }
 
 /// Finds `name` with all symbolic links followed.
-UriResult<fs::path> find_inside(const fs::path& folder, const fs::path& name) {
+UriResult<fs::path> find_below(const fs::path& folder, const fs::path& name, bool allow_outside) {
   std::error_code error;
   const fs::path top = fs::canonical(folder, error);
   if (error) return {std::nullopt, "the model's folder is not there"};
   const fs::path path = fs::canonical(top / name, error);
   if (error) return {std::nullopt, "there is no such file", false, true};
-  if (!is_below(path, top)) return {std::nullopt, "is a link out of the model's folder", true};
+  if (!allow_outside && !is_below(path, top)) return {std::nullopt, "is a link out of the model's folder", true};
   if (!fs::is_regular_file(path, error)) return {std::nullopt, "is not a file", false, true};
   return {path, ""};
 }
@@ -102,16 +102,22 @@ UriResult<std::string> decode_data_uri(std::string_view uri) {
 }
 
 UriResult<fs::path> file_inside(const fs::path& folder, const std::string& uri) {
+  return find_file(folder, uri, false);
+}
+
+UriResult<fs::path> find_file(const fs::path& folder, const std::string& uri, bool allow_outside) {
   if (folder.empty()) return {std::nullopt, "is not looked for: the model has no folder"};
   if (has_scheme(uri)) return {std::nullopt, "is an address, not a file of the model's folder", true};
   const std::string decoded = decode_percent(uri);
   if (decoded.empty()) return {std::nullopt, "is empty", false, true};
   if (decoded.find('\0') != std::string::npos) return {std::nullopt, "has a NUL byte"};
   const fs::path name(decoded);
-  if (name.is_absolute() || has_scheme(decoded)) return {std::nullopt, "is an absolute path", true};
+  if (has_scheme(decoded) || (name.is_absolute() && !allow_outside)) {
+    return {std::nullopt, "is an absolute path", true};
+  }
   const fs::path normal = name.lexically_normal();
-  if (*normal.begin() == "..") return {std::nullopt, "leads out of the model's folder", true};
-  return find_inside(folder, normal);
+  if (*normal.begin() == ".." && !allow_outside) return {std::nullopt, "leads out of the model's folder", true};
+  return find_below(folder, normal, allow_outside);
 }
 
 }  // namespace facemap

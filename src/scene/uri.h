@@ -26,4 +26,8 @@ UriResult<std::string> decode_data_uri(std::string_view uri);
 /// addresses with a scheme ("http:", "C:"), ".." out of the folder and symbolic links out of it are reasons.
 UriResult<std::filesystem::path> file_inside(const std::filesystem::path& folder, const std::string& uri);
 
+/// The same, but paths out of the folder and absolute ones are taken if `allow_outside`; addresses never are.
+UriResult<std::filesystem::path> find_file(const std::filesystem::path& folder, const std::string& uri,
+                                           bool allow_outside);
+
 }  // namespace facemap

@@ -1,7 +1,10 @@
 #include "scene/uri.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "support/gltf_text.h"
@@ -32,6 +35,23 @@ TEST(Uri, NamesNoFileOutsideTheFolder) {
     EXPECT_FALSE(result.leads_out) << uri;
     EXPECT_FALSE(result.reason.empty());
   }
+}
+
+TEST(Uri, FilesOutsideAreTakenIfThatIsAllowed) {
+  namespace fs = std::filesystem;
+  const fs::path root = fs::temp_directory_path() / ("facemap-uri-" + std::to_string(::getpid()));
+  fs::create_directories(root / "model");
+  std::ofstream(root / "outside.png") << "x";
+  const std::string absolute = (root / "outside.png").string();
+  for (const std::string& uri : {std::string("../outside.png"), absolute}) {
+    EXPECT_TRUE(find_file(root / "model", uri, false).leads_out) << uri;
+    const auto found = find_file(root / "model", uri, true);
+    ASSERT_TRUE(found.value) << uri << ": " << found.reason;
+    EXPECT_EQ(*found.value, fs::canonical(absolute));
+  }
+  EXPECT_FALSE(find_file(root / "model", "http://example.com/outside.png", true).value);
+  EXPECT_FALSE(find_file(root / "model", "../absent.png", true).value);
+  fs::remove_all(root);
 }
 
 }  // namespace
