@@ -56,7 +56,7 @@ std::string usage_line(const Command& command) {
 
 std::string program_help(const std::vector<Command>& commands) {
   std::string text =
-      "facemap draws 3D models with exact visibility and shadows of point lights, on the CPU alone.\n"
+      "facemap draws 3D models with exact visibility and shadows, on the CPU alone.\n"
       "The same command gives the same pixels on every machine.\n"
       "\n"
       "Usage: facemap COMMAND [options]\n"

@@ -187,7 +187,7 @@ Command render_command() {
   const auto words = std::make_shared<Words>();
   Command command;
   command.name = "render";
-  command.summary = "Draw a model with exact shadows of point lights";
+  command.summary = "Draw a model with exact shadows";
   command.text =
       "What neither flags nor the file say is made up: a view that holds the whole model, eight lights around\n"
       "it. Both are printed on standard error as flags, to be copied and changed. Angles are in degrees.\n"

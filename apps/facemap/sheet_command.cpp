@@ -67,23 +67,31 @@ int columns_for(std::size_t count, const Size& size) {
   return columns;
 }
 
-Image picture_of(const fs::path& model, const SheetArguments& arguments) {
-  const Scene scene = Scene::load(model, arguments.threads);
-  if (scene.kept_faces().empty()) throw Error(model.string() + ": no face has an area");
+/// As facemap MODEL draws it; pixels that see the floor have no id.
+Image picture_of(const fs::path& path, const SheetArguments& arguments) {
+  ModelLimits limits;
+  limits.threads = arguments.threads;
+  Model model = load_model(path, limits);
+  const auto faces = static_cast<FaceId>(model.mesh.face_count());
+  const Studio studio =
+      make_studio(model.mesh, model.up.value_or(Vector(0, 1, 0)), arguments.size.width, arguments.size.height);
+  append(model, make_ground(studio.ground, model, studio.view.up));
+  const Scene scene(std::move(model), arguments.threads);
   Renderer::Options options;
   options.width = arguments.size.width;
   options.height = arguments.size.height;
-  options.sampling = Renderer::Sampling::Grid;
-  options.samples = 2;
+  options.samples = 3;
   options.threads = arguments.threads;
   options.planes = {Plane::Id};
-  options.ambient = {0.1f, 0.1f, 0.1f};
-  options.background = Color::from_24_bit(0xd0d8e0);
-  View view;
-  view.projection = ProjectionKind::Plane;
-  const BoundingBall ball{scene.centre(), scene.bounding_radius()};
-  view.up = scene.up().value_or(view.up);
-  return Renderer(scene, make_up_view(ball, view.up, view), make_up_lights(ball, view.up), options).render();
+  options.background = studio.background;
+  options.sky_up = studio.sky_up;
+  options.sky_down = studio.sky_down;
+  options.up = studio.view.up;
+  Image picture = Renderer(scene, studio.view, studio.lights, options).render();
+  for (FaceId& id : picture.ids) {
+    if (id >= faces) id = kNoFace;
+  }
+  return picture;
 }
 
 int draw_sheet(const SheetArguments& arguments) {
@@ -136,9 +144,9 @@ Command sheet_command() {
   command.name = "sheet";
   command.summary = "Draw small pictures of many models on one sheet";
   command.text =
-      "Draws each model as the others, numbers the pictures and lists them on standard output. A file that is refused\n"
-      "is crossed out and listed with the reason. A picture in which hardly anything is seen, or nearly all of it is\n"
-      "black or white, is flagged; then the exit code is 1.\n";
+      "Draws each model as facemap MODEL does, numbers the pictures and lists them on standard output. A file that\n"
+      "is refused is crossed out and listed with the reason. A picture in which hardly anything is seen, or nearly\n"
+      "all of it is black or white, is flagged; then the exit code is 1.\n";
   command.options = {
       {"MODEL", "", "", "models, and folders with models: OBJ, glTF, PLY and STL files",
        [&a](const std::string& text) { a.paths.emplace_back(text); }, true},
