@@ -1,0 +1,11 @@
+#pragma once
+
+#include <facemap/point_light.h>
+
+namespace facemap {
+
+/// The projection of a light's map: of all faces of the scene, as the frame sees them, unless the options say
+/// otherwise. Throws Error for options out of range and for a field too narrow for the scene.
+Projection light_projection(const Scene& scene, const SpaceVector& frame, const PointLight::Options& options);
+
+}  // namespace facemap
