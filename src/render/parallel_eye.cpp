@@ -8,19 +8,22 @@
 namespace facemap {
 namespace {
 
-// The plane in front stands off by this share of the scene's radius, and of the coordinates' sizes: rounding to float32
-// moves origins by 2^-24 of those.
-constexpr double kClearance = 0x1p-10, kRounding = 0x1p-20;
+// The plane in front stands off by this share of the scene's radius, and of the coordinates' sizes there: rounding to
+// float32 moves origins by 2^-24 of those. The way from the camera's place is found in double precision, which moves
+// them by a few 2^-53 of the place's size.
+constexpr double kClearance = 0x1p-10, kRounding = 0x1p-20, kRoundingOfPlace = 0x1p-48;
 
 double size_of(const DVector& v) { return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}); }
 
-// `extent`: how far from the sight a ray of the picture may be, world units.
+// Just in front of the scene, wherever the camera is: far away float32 steps may be wider than pixels. `extent`: how
+// far from the sight a ray of the picture may be, world units.
 double front_of(const Scene& scene, const SpaceVector& frame, double extent) {
   const DVector position(frame.position()), centre = scene.centre();
   const double radius = scene.bounding_radius();
-  const double sizes = size_of(position) + size_of(centre) + radius + extent;
   const double nearest = dot(centre - position, frame.axis_z()) - radius;
-  return std::min(0.0, nearest - radius * kClearance - sizes * kRounding);
+  const double sizes = size_of(position + frame.axis_z() * nearest) + size_of(centre) + radius + extent;
+  const double rounding = sizes * kRounding + size_of(position) * kRoundingOfPlace;
+  return nearest - radius * kClearance - rounding;
 }
 
 ParallelMap::Options map_options(const Renderer::Options& options) {

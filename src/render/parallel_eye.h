@@ -7,8 +7,8 @@
 
 namespace facemap {
 
-/// Looks along one direction: an orthographic camera. Rays begin on a plane in front of the whole scene, so that each
-/// face is met; each ray's origin is a float32 point and exact input from there on, as is the direction.
+/// Looks along one direction: an orthographic camera. Rays begin on a plane just in front of the whole scene, so that
+/// each face is met; each ray's origin is a float32 point and exact input from there on, as is the direction.
 class ParallelEye final : public Eye {
  public:
   /// `view` must be orthographic; of the options the picture's size counts, and what is known of holes.
@@ -20,7 +20,7 @@ class ParallelEye final : public Eye {
   RayBundle bundle(const Ray& ray, const MapPoint& place, double step, double distance) const override;
   std::span<const std::uint32_t> faces_at(int, int) const override { return {}; }
 
-  /// How far in front of the camera's plane a ray begins: world units, not above 0.
+  /// How far in front of the camera's plane a ray begins: world units, below 0 behind it.
   double start(const Ray& ray) const;
 
   std::size_t memory_bytes() const { return map_.memory_bytes(); }

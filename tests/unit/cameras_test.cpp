@@ -371,6 +371,32 @@ TEST(Orthographic, RaysBeginInFrontOfTheSceneWhereverTheCameraStands) {
   }
 }
 
+// From 6.8 million units away, where float32 steps are half a unit, a picture is that from nearby: places are still
+// found in double precision.
+TEST(Orthographic, AFarCameraSeesWhatANearOneSees) {
+  const Scene scene(still_life());
+  View view;
+  view.is_parallel = true;
+  view.height = 5;
+  view.position = {2, 3, 6};
+  view.look_at = {0, 1, 0};
+  Options options;
+  options.width = options.height = 200;
+  options.planes = {Plane::Id, Plane::Depth};
+  const Image near = Renderer(scene, view, {}, options).render();
+  view.position = Vector(2, 2, 6) * 0x1p20f + Vector(0, 1, 0);
+  const Image far = Renderer(scene, view, {}, options).render();
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < near.ids.size(); ++i) different += near.ids[i] != far.ids[i];
+  EXPECT_LT(different, near.ids.size() / 1000);  // edges that pass through pixels' centres but for rounding
+  const float way = std::sqrt(44.0f) * 0x1p20f;
+  for (const float depth : far.depths) {
+    if (!std::isinf(depth)) {
+      ASSERT_NEAR(depth, way, 8);
+    }
+  }
+}
+
 // A pixel is height / rows world units; depths are from the camera's plane, also behind it.
 TEST(Orthographic, PlacesAndDepthsAreThoseOfTheCameraPlane) {
   Mesh mesh;

@@ -259,12 +259,12 @@ TEST(GoldenPictures, OfEachCamera) {
        [](Subject& s) {
          look_around(s, Lens::opencv_fisheye({18, 18, 31.5, 32}, {-0.0125, 0.004, -0.003, 0.0005}, 64, 64));
        }},
-      {"orthographic", 0x50387479ac2215cd,
+      {"orthographic", 0xa4fdbbdf491db4bc,
        [](Subject& s) {
          s.view.is_parallel = true;
          s.view.height = 5;
        }},
-      {"orthographic, among the faces", 0x17121b675cc06845,
+      {"orthographic, among the faces", 0xdc149b0b07533e62,
        [](Subject& s) {
          s.view.position = {0.25f, 0.5f, 1};
          s.view.look_at = {0, 0.25f, 0};
