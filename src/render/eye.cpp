@@ -20,12 +20,12 @@ RayBundle CentralEye::bundle(const Ray& ray, const MapPoint& place, double step,
 }
 
 std::span<const std::uint32_t> CentralEye::faces_at(int x, int y) const {
-  if (lens_.projection() == nullptr) return {};
+  if (!has_lists()) return {};
   return camera_.faces_at(x, y);
 }
 
 std::span<const std::uint32_t> CentralEye::cut_outs_at(int x, int y) const {
-  if (lens_.projection() == nullptr) return {};
+  if (!has_lists()) return {};
   return camera_.cut_outs_at(x, y);
 }
 

@@ -28,6 +28,9 @@ class Eye {
   /// they came from one origin. The face that it meets is `distance` directions away.
   virtual RayBundle bundle(const Ray& ray, const MapPoint& place, double step, double distance) const = 0;
 
+  /// Whether faces_at() and cut_outs_at() know a pixel's candidates; if not they are empty.
+  virtual bool has_lists() const { return true; }
+
   /// Candidates of a pixel besides what its rays have met, if they are listed.
   virtual std::span<const std::uint32_t> faces_at(int x, int y) const = 0;
 
@@ -51,6 +54,7 @@ class CentralEye final : public Eye {
   Ray ray(const MapPoint& place) const override;
   Camera::Hit nearest(const Ray& ray, Counters* counters) const override;
   RayBundle bundle(const Ray& ray, const MapPoint& place, double step, double distance) const override;
+  bool has_lists() const override { return lens_.projection() != nullptr; }
   std::span<const std::uint32_t> faces_at(int x, int y) const override;
   std::span<const std::uint32_t> cut_outs_at(int x, int y) const override;
 

@@ -76,7 +76,7 @@ void Painter::put_samples(int y, Worker& worker, Color* samples) {
   const bool by_edges = options_.sampling == Renderer::Sampling::Edges;
   const std::size_t row_length = static_cast<std::size_t>(made_.width) * static_cast<std::size_t>(n);
   for (int x = 0; x < made_.width; ++x) {
-    const bool is_divided = !by_edges || may_hold_edge(x, y);
+    const bool is_divided = !by_edges || may_hold_edge(x, y, worker);
     if (by_edges && is_divided) ++worker.statistics.upsampled_pixels;
     for (int j = 0; j < n; ++j) {
       Color* const row = samples + static_cast<std::size_t>(j) * row_length + static_cast<std::size_t>(x * n);
@@ -161,9 +161,12 @@ void Painter::store_planes(std::size_t pixel, const Sample& sample) {
   }
 }
 
+MapPoint Painter::place_in_grid(int x, int y, int i, int j, int samples) const {
+  return {made_.x + x + (i + 0.5) / samples, made_.y + y + (j + 0.5) / samples};
+}
+
 const Color& Painter::sample_of_grid(int x, int y, int i, int j, int samples, Worker& worker) {
-  const MapPoint place(made_.x + x + (i + 0.5) / samples, made_.y + y + (j + 0.5) / samples);
-  worker.shader.shade(place, 1.0 / samples, worker.grid_sample);
+  worker.shader.shade(place_in_grid(x, y, i, j, samples), 1.0 / samples, worker.grid_sample);
   return worker.grid_sample.color;
 }
 
@@ -184,15 +187,15 @@ Color Painter::mean_of_grid(int x, int y, int samples, Worker& worker) {
 // Wang 2022, sec. 2.3, Fig. 3: only the pixels that may hold an edge are divided.
 void Painter::upsample_edges(int y, Worker& worker) {
   for (int x = 0; x < image_.width; ++x) {
-    if (!is_made(x, y) || !may_hold_edge(x, y)) continue;
+    if (!is_made(x, y) || !may_hold_edge(x, y, worker)) continue;
     ++worker.statistics.upsampled_pixels;
     image_.pixels[index(x, y)] = mean_of_grid(x, y, options_.samples, worker);
   }
 }
 
-// The pixel's own list of the camera's map holds another candidate or a face with holes, or a neighbour shows another
-// face (so perhaps another normal) or other lights.
-bool Painter::may_hold_edge(int x, int y) const {
+// The pixel's own list of the camera's map holds another candidate or a face with holes (without lists: a sample shows
+// another face), or a neighbour shows another face (so perhaps another normal) or other lights.
+bool Painter::may_hold_edge(int x, int y, Worker& worker) const {
   const std::size_t own = index(x, y);
   for (const std::uint32_t face : eye_.faces_at(made_.x + x, made_.y + y)) {
     if (static_cast<FaceId>(face) != image_.ids[own]) return true;
@@ -202,6 +205,19 @@ bool Painter::may_hold_edge(int x, int y) const {
     for (int u = std::max(0, x - 1); u <= std::min(image_.width - 1, x + 1); ++u) {
       const std::size_t other = index(u, v);
       if (image_.ids[other] != image_.ids[own] || !same_lights(own, other)) return true;
+    }
+  }
+  return !eye_.has_lists() && shows_another_face(x, y, worker);
+}
+
+// One of the pixel's samples, than its centre.
+bool Painter::shows_another_face(int x, int y, Worker& worker) const {
+  const int n = options_.samples;
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      ++worker.statistics.camera_queries;
+      const Eye::Ray ray = eye_.ray(place_in_grid(x, y, i, j, n));
+      if (eye_.nearest(ray, &worker.statistics.camera_tests).face != image_.ids[index(x, y)]) return true;
     }
   }
   return false;

@@ -52,7 +52,9 @@ class Painter {
   void store_planes(std::size_t pixel, const Sample& sample);
   const Color& sample_of_grid(int x, int y, int i, int j, int samples, Worker& worker);
   Color mean_of_grid(int x, int y, int samples, Worker& worker);
-  bool may_hold_edge(int x, int y) const;
+  MapPoint place_in_grid(int x, int y, int i, int j, int samples) const;
+  bool may_hold_edge(int x, int y, Worker& worker) const;
+  bool shows_another_face(int x, int y, Worker& worker) const;
   bool same_lights(std::size_t i, std::size_t j) const;
 
   std::size_t index(int x, int y) const {

@@ -18,6 +18,7 @@ class ParallelEye final : public Eye {
   Ray ray(const MapPoint& place) const override;
   Camera::Hit nearest(const Ray& ray, Counters* counters) const override;
   RayBundle bundle(const Ray& ray, const MapPoint& place, double step, double distance) const override;
+  bool has_lists() const override { return false; }
   std::span<const std::uint32_t> faces_at(int, int) const override { return {}; }
 
   /// How far in front of the camera's plane a ray begins: world units, below 0 behind it.

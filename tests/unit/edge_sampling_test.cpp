@@ -121,6 +121,36 @@ TEST(EdgeSampling, OrthographicPicturesAreFiltered) {
   }
 }
 
+// A wire a third of a pixel wide before the sky, which passes few pixels' centres: every sample that meets it counts.
+TEST(EdgeSampling, ThinWiresAreWholeWithoutListsOfPixels) {
+  constexpr float kPixel = 4.0f / 64, kWide = kPixel / 3;
+  Mesh wire;
+  wire.positions = {{-3, -1, 0}, {3, 0.25f, 0}, {3, 0.25f + kWide, 0}, {-3, -1 + kWide, 0}};
+  wire.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const Scene scene(wire);
+  View parallel;
+  parallel.is_parallel = true;
+  parallel.height = 4;
+  parallel.position = {0, 0, 2};
+  parallel.look_at = {0, 0, 0};
+  View panorama = parallel;
+  panorama.is_parallel = false;
+  panorama.lens = Lens::equirectangular(128, 64);
+  for (const View& view : {parallel, panorama}) {
+    Renderer::Options options = edges(64, 4);
+    if (view.lens) options.width = 128;
+    options.builder = view.lens ? Builder::Fill : Builder::Cover;
+    options.ambient = {1, 1, 1};
+    Renderer by_edges(scene, view, {}, options);
+    const Image some = by_edges.render();
+    options.sampling = Renderer::Sampling::Grid;
+    const Image all = Renderer(scene, view, {}, options).render();
+    EXPECT_TRUE(some.pixels == all.pixels);
+    EXPECT_GT(by_edges.statistics().upsampled_pixels, 50u);
+    EXPECT_LT(by_edges.statistics().upsampled_pixels, all.pixels.size() / 4);
+  }
+}
+
 TEST(EdgeSampling, ThreadsMemoryAndStrategyChangeNothing) {
   for (const bool smooth : {false, true}) {
     const Scene scene(ball_on_floor(12, smooth));
