@@ -24,13 +24,14 @@ bool is_own_picture(const fs::path& path) {
 
 }  // namespace
 
-fs::path default_output(const fs::path& model) {
+std::string default_output(const fs::path& model) {
   const fs::path picture = (is_standard_input(model) ? std::string("model") : model.stem().string()) + ".png";
   std::error_code ignored;
-  if (fs::exists(picture, ignored) && !is_own_picture(picture)) {
+  const bool is_file = fs::is_regular_file(picture, ignored);  // reading what is none could last for ever
+  if (fs::exists(picture, ignored) && !(is_file && is_own_picture(picture))) {
     throw Error(picture.string() + ": there is such a file that facemap did not write; name the picture with -o");
   }
-  return picture;
+  return "{model}.png";  // as it is: braces in a model's name stand for themselves
 }
 
 }  // namespace facemap::program

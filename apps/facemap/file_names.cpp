@@ -67,7 +67,9 @@ std::size_t number_in(const std::string& digits, const std::string& text) {
   if (digits.empty() || digits.size() > kMostDigits || !std::all_of(digits.begin(), digits.end(), is_digit)) {
     throw UsageError("'" + text + "' is not a picture's number or a range such as 0-9 or 0..9");
   }
-  return std::stoul(digits);
+  const std::size_t number = std::stoul(digits);
+  if (number < static_cast<std::size_t>(kMaxFrames)) return number;
+  throw UsageError("'" + text + "' goes beyond the " + std::to_string(kMaxFrames) + " pictures that a run can have");
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 
 namespace facemap::program {
 
+inline constexpr int kMaxFrames = 100'000;  ///< pictures of a run
+
 /// Pictures first..last of 0..count-1: those of a run that one command makes.
 struct FrameRange {
   std::size_t first = 0, last = 0;

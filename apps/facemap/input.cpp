@@ -45,6 +45,14 @@ Vector scene_up(const RenderArguments& arguments, const std::optional<Vector>& s
   return arguments.frames.ups.empty() ? stated.value_or(Vector(0, 1, 0)) : arguments.frames.ups[0];
 }
 
+/// The up of a scene's settings is the world's, even where a pose takes its place for the camera.
+std::optional<Vector> stated_up(const Input& input, const std::optional<Vector>& of_model) {
+  for (const Word& word : input.settings) {
+    if (word.name == "up") return parse_direction(word.text);
+  }
+  return of_model;
+}
+
 /// A model that no option changes is read the quickest way.
 bool is_plain(const Input& input, const RenderArguments& arguments) {
   return input.bytes.empty() && input.scene.models.size() == 1 && !input.scene.models[0].up &&
@@ -59,7 +67,7 @@ Model load_model_of(const Input& input, const RenderArguments& arguments) {
   }
   std::vector<SceneModel> models = input.scene.models;
   for (SceneModel& model : models) model.transform = scaled(model.transform, arguments.scale);
-  return load_models(models, scene_up(arguments, std::nullopt), arguments.limits);
+  return load_models(models, scene_up(arguments, stated_up(input, std::nullopt)), arguments.limits);
 }
 
 }  // namespace
@@ -112,11 +120,11 @@ Loaded load(const Input& input, const Words& words) {
   if (is_plain(input, arguments)) {
     Loaded loaded{Scene::load(input.scene.models[0].path, arguments.limits), {}, {0, 1, 0}, words};
     loaded.ball = {loaded.scene.centre(), loaded.scene.bounding_radius()};
-    loaded.up = scene_up(arguments, loaded.scene.up());
+    loaded.up = scene_up(arguments, stated_up(input, loaded.scene.up()));
     return loaded;
   }
   Model model = load_model_of(input, arguments);
-  const Vector up = scene_up(arguments, model.up);
+  const Vector up = scene_up(arguments, stated_up(input, model.up));
   const BoundingBall ball = bounding_ball(model.mesh);
   Words all = words;
   if (arguments.studio && !input.is_scene) {

@@ -1,9 +1,11 @@
 #include <facemap/error.h>
 #include <facemap/instruction_set.h>
 
+#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <string>
 
 #include "commands.h"
 #include "exit_codes.h"
@@ -53,6 +55,10 @@ int run(int argc, const char* const* argv) {
 
 int main(int argc, char** argv) {
   using namespace facemap::program;
+  // Errors of the command line itself are told as it asks, too.
+  const bool is_json =
+      std::any_of(argv + 1, argv + argc, [](const char* word) { return std::string(word) == "--log-json"; });
+  set_report_style({false, false, is_json});
   try {
     catch_signals();
     return run(argc, argv);

@@ -118,13 +118,14 @@ std::string completion_for(const std::vector<std::string>& words, const std::vec
 }
 
 /// facemap MODEL ... is facemap render MODEL --studio ...
-const Command* parse_studio(const std::vector<Command>& commands, int argc, const char* const* argv) {
-  const auto render =
-      std::find_if(commands.begin(), commands.end(), [](const Command& command) { return command.name == "render"; });
+void parse_studio(const Command& render, int argc, const char* const* argv) {
   std::vector<const char*> words(argv, argv + argc);
   words.insert(words.begin() + 2, "--studio");
-  parse_options(*render, static_cast<int>(words.size()), words.data());
-  return &*render;
+  parse_options(render, static_cast<int>(words.size()), words.data());
+}
+
+const Command& command_named(const std::vector<Command>& commands, const std::string& name) {
+  return *std::find_if(commands.begin(), commands.end(), [&](const Command& command) { return command.name == name; });
 }
 
 }  // namespace
@@ -163,13 +164,18 @@ const Command* parse_command_line(const std::vector<Command>& commands, int argc
   } else {
     const auto command =
         std::find_if(commands.begin(), commands.end(), [&](const Command& c) { return c.name == words[0]; });
-    if (command == commands.end() && names_model(words[0])) return parse_studio(commands, argc, argv);
-    if (command == commands.end()) refuse_command(commands, words[0]);
+    const bool is_studio = command == commands.end() && names_model(words[0]);
+    if (command == commands.end() && !is_studio) refuse_command(commands, words[0]);
+    const Command& asked = is_studio ? command_named(commands, "render") : *command;
     if (std::none_of(words.begin() + 1, words.end(), asks_for_help)) {
-      parse_options(*command, argc - 1, argv + 1);
-      return &*command;
+      if (is_studio) {
+        parse_studio(asked, argc, argv);
+      } else {
+        parse_options(asked, argc - 1, argv + 1);
+      }
+      return &asked;
     }
-    answer = command_help(*command);
+    answer = command_help(asked);
   }
   return nullptr;
 }

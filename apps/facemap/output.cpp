@@ -3,6 +3,8 @@
 #include <facemap/error.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <string>
@@ -13,7 +15,25 @@ namespace facemap::program {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Whether a file is a model's, by its name: no picture and no scene file is called so.
+bool names_model_file(const fs::path& path) {
+  constexpr std::array kExtensions = {".obj", ".mtl", ".gltf", ".glb", ".ply", ".stl"};
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
+
+}  // namespace
+
 bool is_standard_output(const fs::path& output) { return output == "-"; }
+
+fs::path settled_name(const fs::path& file) {
+  std::error_code failed;
+  const fs::path name = fs::weakly_canonical(fs::absolute(file), failed);
+  return failed ? file.lexically_normal() : name;
+}
 
 void check_output(const fs::path& output, const fs::path& model) {
   if (output.empty()) throw UsageError("no output file is given: add -o FILE, or -o - for standard output");
@@ -24,6 +44,8 @@ void check_output(const fs::path& output, const fs::path& model) {
   if (!model.empty() && fs::equivalent(output, model, ignored)) {
     throw UsageError(output.string() + ": the output would replace the model");
   }
+  if (!model.empty() && fs::is_regular_file(status) && names_model_file(output))
+    throw UsageError(output.string() + ": the output would replace a model's file");
   if (fs::is_directory(status)) throw Error(output.string() + ": cannot write: it is a folder");
   const bool is_special = fs::exists(status) && !fs::is_regular_file(status);
   fs::path folder = output.parent_path();

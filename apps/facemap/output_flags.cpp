@@ -53,16 +53,19 @@ void check_formats(const WantedOutput& output) {
   }
 }
 
+/// The scene is written last, when the picture is there.
+void check_scene_file(const fs::path& scene, const fs::path& picture, const fs::path& model) {
+  if (is_standard_output(scene) && is_standard_output(picture))
+    throw UsageError("--save-scene: standard output takes the picture alone");
+  check_output(scene, model);
+}
+
 /// Files by the names that the file system has for them.
 class KnownFiles {
  public:
   void add(const fs::path& file) {
     if (is_standard_output(file)) return;
-    std::error_code failed;
-    const fs::path name = fs::weakly_canonical(fs::absolute(file), failed);
-    if (!names_.insert(failed ? file.lexically_normal() : name).second) {
-      throw UsageError(file.string() + ": two outputs name this file");
-    }
+    if (!names_.insert(settled_name(file)).second) throw UsageError(file.string() + ": two outputs name this file");
   }
 
  private:
@@ -124,6 +127,10 @@ std::vector<FrameFiles> check_output_files(const WantedOutput& output, const fs:
       known.add(files[i]);
       frames[i].planes.push_back({plane, files[i]});
     }
+  }
+  if (!output.scene.empty()) {
+    check_scene_file(output.scene, output.files.picture, model);
+    known.add(output.scene);
   }
   check_formats(output);
   return frames;

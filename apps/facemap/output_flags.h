@@ -12,7 +12,8 @@ namespace facemap::program {
 
 /// What a user said about the files of a run.
 struct WantedOutput {
-  FrameFiles files;  ///< names that may hold {n} and {model}
+  FrameFiles files;             ///< names that may hold {n} and {model}
+  std::filesystem::path scene;  ///< that makes the pictures again; empty: none
   FormatSettings format;
   PlaneSet layers;  ///< planes that the picture's file holds itself
 

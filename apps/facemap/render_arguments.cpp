@@ -12,7 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMaxFrames = 100'000;
 constexpr long long kMostPixels = 1LL << 30;  ///< of 32768 x 32768; --max-pixels may allow fewer
 
 template <typename Value, typename Parse>
@@ -233,6 +232,8 @@ std::vector<FrameFiles> check_files(const RenderArguments& arguments, std::size_
   if (is_standard_output(arguments.output.files.picture) && arguments.stats != StatsFormat::None) {
     throw UsageError("-o - and --stats would both write to standard output");
   }
+  if (is_standard_output(arguments.output.scene) && arguments.stats != StatsFormat::None)
+    throw UsageError("--save-scene - and --stats would both write to standard output");
   return check_output_files(arguments.output, arguments.model, arguments.frames.selected(all), all);
 }
 

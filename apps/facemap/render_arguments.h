@@ -51,7 +51,6 @@ struct RenderArguments {
   bool studio = false;
   std::string camera_name;  ///< of the file's cameras: a name, a number from 0, or "all"; empty: the first
   bool file_camera = true, file_lights = true;
-  std::filesystem::path save_scene;
   StatsFormat stats = StatsFormat::None;
   bool quiet = false, verbose = false, log_json = false;
 

@@ -10,6 +10,7 @@
 #include "file_views.h"
 #include "frame_writer.h"
 #include "input.h"
+#include "input_files.h"
 #include "light_flags.h"
 #include "output.h"
 #include "progress_line.h"
@@ -34,15 +35,21 @@ void say_what_was_made_up(const std::vector<WantedView>& wanted, const std::vect
   if (lights.are_made_up) note("lights: " + flags_of(lights.lights));
 }
 
+/// The file's name, or the pattern where a name of its own would not do.
+std::string shown_output(const fs::path& pattern, const std::vector<FrameFiles>& files) {
+  const std::string name = files[0].picture.string();
+  return files.size() == 1 && name.find('{') == std::string::npos ? name : pattern.string();
+}
+
 /// The command that makes a picture of the studio again, by flags alone.
-void say_studio_command(const RenderArguments& arguments, const Words& words) {
+void say_studio_command(const RenderArguments& arguments, const std::string& output, const Words& words) {
   Words flags;
   for (const Word& word : words) {
     if (word.name != "MODEL" && word.name != "output" && word.name != "studio" && word.name != "save-scene")
       flags.push_back(word);
   }
   note("the same again: facemap render " + quoted_for_shell(arguments.model.string()) + " -o " +
-       quoted_for_shell(arguments.output.files.picture.string()) + " " + flags_of(flags));
+       quoted_for_shell(output) + " " + flags_of(flags));
 }
 
 void say_what_is_odd(const Scene& scene, const fs::path& model) {
@@ -127,12 +134,13 @@ RenderArguments checked(const Words& words) {
 /// The words of the command line, with a name for the studio's picture if they give none.
 Words with_output(Words given, const RenderArguments& asked) {
   if (asked.studio && asked.output.files.picture.empty() && !asked.model.empty())
-    given.push_back({"output", default_output(asked.model).string(), ""});
+    given.push_back({"output", default_output(asked.model), ""});
   return given;
 }
 
 /// How many pictures there are, as far as flags say it: the file may have cameras.
 std::size_t expected_count(const WantedFrames& frames) {
+  if (frames.turntable > 0) return frames.count();
   return std::max(frames.count(), frames.range ? frames.range->last + 1 : 0);
 }
 
@@ -140,11 +148,11 @@ void render(const Words& typed) {
   const Words given = with_output(typed, checked(typed));
   const RenderArguments asked = arguments_of(given);
   check_files(asked, expected_count(asked.frames));
-  if (!asked.save_scene.empty()) check_output(asked.save_scene, asked.model);
   Stats stats;
   Stopwatch total, phase;
   const Input input = within_limits([&] { return read_input(asked.model, asked.limits); });
-  const Loaded loaded = within_limits([&] { return load(input, merge(given, input.settings)); });
+  if (!asked.output.scene.empty()) check_names(input);
+  const Loaded loaded = within_limits([&] { return load(input, merge_cameras(given, input.settings)); });
   const Scene& scene = loaded.scene;
   stats.load_ms = phase.lap();
 
@@ -159,6 +167,7 @@ void render(const Words& typed) {
                                 all_views.begin() + static_cast<std::ptrdiff_t>(range.last) + 1);
   const WantedLights lights = wanted_lights(arguments, input, loaded);
   const std::vector<FrameFiles> files = check_files(arguments, all_views.size());
+  check_inputs_stay(files, arguments.output.scene, input, scene);
   say_what_was_made_up(wanted, all_views, range, lights);
 
   Renderer::Options options = renderer_options(arguments);
@@ -166,10 +175,11 @@ void render(const Words& typed) {
   Renderer renderer(scene, views[0], lights.lights, options);
   FrameWriter writer(arguments.output.format, arguments.output.layers);
   render_frames(renderer, views, files, writer, arguments.options.threads, stats);
-  if (!arguments.save_scene.empty())
-    save_scene(scene_of(input, loaded, arguments, all_views, lights.lights), arguments.save_scene);
-  if (arguments.studio) note("picture: " + arguments.output.files.picture.string());
-  if (arguments.studio && !input.is_scene) say_studio_command(arguments, loaded.words);
+  if (!arguments.output.scene.empty())
+    save_scene(scene_of(input, loaded, arguments, all_views, lights.lights), arguments.output.scene);
+  const std::string output = shown_output(arguments.output.files.picture, files);
+  if (arguments.studio) note("picture: " + (files.size() == 1 ? files[0].picture.string() : output));
+  if (arguments.studio && !input.is_scene) say_studio_command(arguments, output, loaded.words);
 
   stats.total_ms = total.lap();
   stats.model = arguments.model.string();

@@ -73,6 +73,15 @@ void say_progress(const std::string& phase, double fraction, double seconds_left
   std::cerr << line + "}" << std::endl;
 }
 
+bool is_utf8(const std::string& text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = character_length(text, i);
+    if (length == 0) return false;
+    i += length;
+  }
+  return true;
+}
+
 std::string json_text(const std::string& text) {
   std::string result = "\"";
   for (std::size_t i = 0; i < text.size();) {

@@ -32,6 +32,8 @@ void say_done(double seconds);
 /// Only as JSON: event progress.
 void say_progress(const std::string& phase, double fraction, double seconds_left);
 
+bool is_utf8(const std::string& text);
+
 /// Text as a JSON string; bytes that are no UTF-8 become U+FFFD.
 std::string json_text(const std::string& text);
 

@@ -52,9 +52,16 @@ bool is_outside(const fs::path& model, const fs::path& folder) {
 
 }  // namespace
 
+void check_names(const Input& input) {
+  if (!input.bytes.empty()) throw UsageError("--save-scene: a model from standard input has no file to name");
+  for (const SceneModel& model : input.scene.models) {
+    if (!is_utf8(model.path.string()))
+      throw UsageError("--save-scene: " + model.path.string() + ": a scene file can name only files in UTF-8");
+  }
+}
+
 SceneFile scene_of(const Input& input, const Loaded& loaded, const RenderArguments& arguments,
                    const std::vector<View>& views, const std::vector<Light>& lights) {
-  if (!input.bytes.empty()) throw UsageError("--save-scene: a model from standard input has no file to name");
   SceneFile scene;
   scene.models = input.scene.models;
   for (SceneModel& model : scene.models) {

@@ -6,6 +6,9 @@
 
 namespace facemap::program {
 
+/// Throws UsageError for models that a scene file cannot name.
+void check_names(const Input& input);
+
 /// The scene that makes the same pictures again: models and ground as they were, these views and lights, and as
 /// settings the words that shape pictures.
 SceneFile scene_of(const Input& input, const Loaded& loaded, const RenderArguments& arguments,

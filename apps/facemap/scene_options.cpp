@@ -61,7 +61,7 @@ std::vector<Option> scene_options(RenderArguments& a) {
              a.file_camera),
       on_off("--file-lights", "on", "lights that stand in the file are used if no --light is given", a.file_lights),
       {"--save-scene", "FILE", "", "writes a scene file (TOML) that makes the same picture again",
-       into(a.save_scene, [](const std::string& text) { return std::filesystem::path(text); })},
+       into(a.output.scene, [](const std::string& text) { return std::filesystem::path(text); })},
   };
 }
 

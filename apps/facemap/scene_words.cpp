@@ -34,8 +34,9 @@ constexpr std::array kNotSettings = {"camera",
                                      "studio"};
 
 /// Settings that a saved scene says in its tables.
-constexpr std::array kSaidInTables = {"up",          "ground",      "scale",       "intensity", "camera-name",
-                                      "file-camera", "file-lights", "opencv-pose", "strategy",  "map-memory"};
+constexpr std::array kSaidInTables = {"up",          "ground",      "scale",       "intensity",
+                                      "camera-name", "field-angle", "file-camera", "file-lights",
+                                      "opencv-pose", "strategy",    "map-memory"};
 
 template <typename Names>
 bool is_among(const std::string& name, const Names& names) {

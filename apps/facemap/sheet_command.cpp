@@ -99,9 +99,14 @@ int draw_sheet(const SheetArguments& arguments) {
   const FileFormat format = format_of(arguments.output);
   check_picture_output(arguments.output, {});
   std::vector<fs::path> models;
-  for (const fs::path& path : arguments.paths) add_models(path, models);
+  for (const fs::path& path : arguments.paths) {
+    std::error_code ignored;
+    if (!fs::exists(path, ignored)) throw Error(path.string() + ": there is no such file or folder");
+    add_models(path, models);
+  }
   if (models.empty()) throw Error(arguments.paths[0].string() + ": no model is there");
-  const int columns = arguments.columns > 0 ? arguments.columns : columns_for(models.size(), arguments.size);
+  const int wanted = arguments.columns > 0 ? arguments.columns : columns_for(models.size(), arguments.size);
+  const int columns = static_cast<int>(std::min(static_cast<std::size_t>(wanted), models.size()));
   ContactSheet sheet(models.size(), columns, arguments.size.width, arguments.size.height);
 
   set_report_style({arguments.quiet});
@@ -131,7 +136,7 @@ int draw_sheet(const SheetArguments& arguments) {
   }
   write_output(arguments.output, encode_picture(sheet.image(), format, {}, {}, arguments.threads));
   list << models.size() - refused << " drawn, " << flagged << " of them flagged; " << refused << " refused\n";
-  return flagged == 0 ? kDone : kFailed;
+  return flagged == 0 && refused < models.size() ? kDone : kFailed;
 }
 
 }  // namespace
@@ -146,7 +151,7 @@ Command sheet_command() {
   command.text =
       "Draws each model as facemap MODEL does, numbers the pictures and lists them on standard output. A file that\n"
       "is refused is crossed out and listed with the reason. A picture in which hardly anything is seen, or nearly\n"
-      "all of it is black or white, is flagged; then the exit code is 1.\n";
+      "all of it is black or white, is flagged; then, or if nothing can be drawn, the exit code is 1.\n";
   command.options = {
       {"MODEL", "", "", "models, and folders with models: OBJ, glTF, PLY and STL files",
        [&a](const std::string& text) { a.paths.emplace_back(text); }, true},

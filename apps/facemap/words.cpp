@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <set>
 
 #include "usage_error.h"
 
@@ -28,6 +30,13 @@ bool is_lens_word(const std::string& name) {
   return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
 }
 
+/// Whether `first` says in another way what the option `name` says.
+bool is_said_otherwise(const Words& first, const std::string& name) {
+  if (name == "crop") return has(first, "tile");
+  if (name == "tile") return has(first, "crop");
+  return (name == "camera" || name == "look-at" || name == "up") && has(first, "opencv-pose");
+}
+
 }  // namespace
 
 std::string plain_name(const Option& option) {
@@ -40,9 +49,11 @@ bool has(const Words& words, const std::string& name) {
 }
 
 Words merge(const Words& first, const Words& second) {
+  std::set<std::string> names;
+  for (const Word& word : first) names.insert(word.name);
   Words all = first;
   for (const Word& word : second) {
-    if (!has(first, word.name)) all.push_back(word);
+    if (names.count(word.name) == 0) all.push_back(word);
   }
   return all;
 }
@@ -50,11 +61,12 @@ Words merge(const Words& first, const Words& second) {
 Words merge_cameras(const Words& first, const Words& second) {
   const auto lens = std::find_if(first.begin(), first.end(),
                                  [](const Word& word) { return word.name == "lens" || word.name == "projection"; });
-  if (lens == first.end()) return merge(first, second);
-  const bool has_angle = lens->text == "plane" || lens->text == "surface";
+  const bool names_lens = lens != first.end();
+  const bool has_angle = names_lens && (lens->text == "plane" || lens->text == "surface");
   Words rest;
   for (const Word& word : second) {
-    if (!is_lens_word(word.name) || (word.name == "field-angle" && has_angle)) rest.push_back(word);
+    const bool is_of_other_lens = names_lens && is_lens_word(word.name) && !(word.name == "field-angle" && has_angle);
+    if (!is_of_other_lens && !is_said_otherwise(first, word.name)) rest.push_back(word);
   }
   return merge(first, rest);
 }
@@ -72,12 +84,13 @@ std::vector<Option> recorded(std::vector<Option> options, Words& words) {
 }
 
 void set_options(const std::vector<Option>& options, const Words& words) {
+  std::map<std::string, std::size_t> counts;
+  for (const Word& word : words) ++counts[word.name];
   for (const Word& word : words) {
     const auto found =
         std::find_if(options.begin(), options.end(), [&](const Option& o) { return plain_name(o) == word.name; });
     if (found == options.end()) refuse(word, "is not known");
-    const auto count = std::count_if(words.begin(), words.end(), [&](const Word& w) { return w.name == word.name; });
-    if (count > 1 && !found->repeats) refuse(word, "is given more than once");
+    if (counts[word.name] > 1 && !found->repeats) refuse(word, "is given more than once");
     try {
       if (found->value.empty() && !found->is_argument()) {
         set_switch(*found, word);

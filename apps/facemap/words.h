@@ -23,7 +23,8 @@ bool has(const Words& words, const std::string& name);
 /// All of `first`, and those of `second` whose options are not in `first`.
 Words merge(const Words& first, const Words& second);
 
-/// The same of words about a camera: one that names another lens takes nothing of the lens in `second`.
+/// The same for words about cameras and pictures: where `first` names a lens, nothing of the lens in `second` counts; a
+/// crop hides a tile and a tile a crop; a pose hides place, target and up.
 Words merge_cameras(const Words& first, const Words& second);
 
 /// The same rows, whose values are kept in `words` beside being set. `words` must outlive them.
