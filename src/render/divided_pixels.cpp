@@ -47,7 +47,7 @@ void DividedPixels::finish(const Executor& executor) {
   if (is_box_) return;
   const int height = static_cast<int>(pixels_.size() / static_cast<std::size_t>(edges_.width()));
   std::vector<Color> filtered(pixels_.size());
-  FilteredRows(filter_, edges_.width(), height)
+  FilteredRows(filter_, edges_.width(), height, edges_.pieces())
       .add(
           height * filter_.per_side(), [&](int row, Color* scratch) { return row_of_samples(row, scratch); }, executor,
           filtered.data());

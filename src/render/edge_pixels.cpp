@@ -40,7 +40,8 @@ EdgePixels::EdgePixels(const Scene& scene, const View& view, const Renderer::Opt
       executor_(executor),
       width_(made_pixels(options).width),
       height_(made_pixels(options).height),
-      top_(made_pixels(options).y) {
+      top_(made_pixels(options).y),
+      pieces_(PicturePieces::of(view, made_pixels(options))) {
   for (int i = 0; i < executor.threads(); ++i) {
     joined_.emplace_back(scene, view.position, options.normals, materials);
   }
@@ -110,7 +111,7 @@ bool EdgePixels::holds_edge(const SampleGrid& samples, std::span<const FaceId> f
 bool EdgePixels::differs_from_neighbours(int x, int y) const {
   for (int v = std::max(0, y - 1); v <= std::min(height_ - 1, y + 1); ++v) {
     for (int u = std::max(0, x - 1); u <= std::min(width_ - 1, x + 1); ++u) {
-      if (differ(index(x, y), index(u, v))) return true;
+      if (pieces_.are_one(x, y, u, v) && differ(index(x, y), index(u, v))) return true;
     }
   }
   return false;
@@ -187,7 +188,8 @@ void EdgePixels::spread_from(int x, int y, const SampleGrid& samples, std::span<
       if (face == kNoFace) continue;
       for (int v = y - (j == 0); v <= y + (j == n - 1); ++v) {
         for (int u = x - (i == 0); u <= x + (i == n - 1); ++u) {
-          if (u >= 0 && v >= 0 && u < width_ && v < height_) meet(face, *key, index(u, v), joined);
+          const bool is_made = u >= 0 && v >= 0 && u < width_ && v < height_;
+          if (is_made && pieces_.are_one(x, y, u, v)) meet(face, *key, index(u, v), joined);
         }
       }
     }

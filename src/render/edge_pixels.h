@@ -10,6 +10,7 @@
 #include "parallel/executor.h"
 #include "picture/sample_grid.h"
 #include "render/joined_faces.h"
+#include "render/picture_pieces.h"
 
 namespace facemap {
 
@@ -86,6 +87,7 @@ class EdgePixels {
   /// The first pixel of a band, whose samples are given.
   std::size_t first_pixel(const SampleGrid& samples) const { return index(0, row_of(samples)); }
   int width() const { return width_; }
+  const PicturePieces& pieces() const { return pieces_; }
 
  private:
   enum State : std::uint8_t {
@@ -113,6 +115,7 @@ class EdgePixels {
   const MaterialTable* materials_;
   const Executor& executor_;
   const int width_, height_, top_;   // of the pixels that are made, which are counted from the first of them
+  const PicturePieces pieces_;       // pixels of two of them are no neighbours
   std::vector<JoinedFaces> joined_;  // one a worker
   std::vector<Centre> centres_;
   std::vector<Color> roots_;  // square roots of the centres' colours

@@ -3,11 +3,27 @@
 #include <algorithm>
 
 namespace facemap {
+namespace {
 
-FilteredRows::FilteredRows(const PixelFilter& filter, int width, int height)
-    : filter_(filter), width_(width), height_(height) {
-  for (int x = 0; x < width; ++x) columns_.push_back(filter_.window(x, width));
+// Of each of `pixels` columns or rows that lie in pieces of so many; number 0 is the picture's number `first`.
+std::vector<PixelFilter::Window> windows_of(const PixelFilter& filter, int pixels, int first, int piece) {
+  std::vector<PixelFilter::Window> windows;
+  for (int pixel = 0; pixel < pixels; ++pixel) {
+    const int piece_begin = (first + pixel) / piece * piece - first;
+    const int begin = std::max(0, piece_begin), end = std::min(pixels, piece_begin + piece);
+    windows.push_back(filter.window(pixel - begin, end - begin));
+  }
+  return windows;
 }
+
+}  // namespace
+
+FilteredRows::FilteredRows(const PixelFilter& filter, int width, int height, const PicturePieces& pieces)
+    : filter_(filter),
+      width_(width),
+      height_(height),
+      columns_(windows_of(filter, width, pieces.first_column, pieces.width)),
+      rows_(windows_of(filter, height, pieces.first_row, pieces.height)) {}
 
 void FilteredRows::add(int count, const std::vector<Color>& samples, const Executor& executor, Color* pixels) {
   const auto columns = static_cast<std::size_t>(width_ * filter_.per_side());
@@ -29,7 +45,7 @@ void FilteredRows::add(int count, const Row& row, const Executor& executor, Colo
     std::vector<Color>& space = scratch[static_cast<std::size_t>(worker)];
     sums.resize(static_cast<std::size_t>(width_));
     space.resize(static_cast<std::size_t>(width_ * per_side));
-    const PixelFilter::Window window = filter_.window(y, height_);
+    const PixelFilter::Window& window = rows_[static_cast<std::size_t>(y)];
     const int top = y * per_side + filter_.first();
     const int last = std::min(top + window.end, end_row);
     for (int j = std::max(top + window.begin, first_row); j < last; ++j) {
@@ -41,7 +57,7 @@ void FilteredRows::add(int count, const Row& row, const Executor& executor, Colo
   });
   int open_from = open_from_;
   while (open_from < end &&
-         open_from * per_side + filter_.first() + filter_.window(open_from, height_).end <= end_row) {
+         open_from * per_side + filter_.first() + rows_[static_cast<std::size_t>(open_from)].end <= end_row) {
     ++open_from;
   }
   open_.erase(open_.begin(), open_.begin() + (open_from - open_from_));
@@ -69,7 +85,7 @@ void FilteredRows::add_row(const Color* samples, double weight, std::vector<Sum>
 }
 
 void FilteredRows::write(int y, const std::vector<Sum>& sums, Color* pixels) const {
-  const double rows = filter_.window(y, height_).sum;
+  const double rows = rows_[static_cast<std::size_t>(y)].sum;
   for (int x = 0; x < width_; ++x) {
     const auto i = static_cast<std::size_t>(x);
     const double weight = rows * columns_[i].sum;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "parallel/executor.h"
+#include "render/picture_pieces.h"
 #include "render/pixel_filter.h"
 
 namespace facemap {
@@ -15,8 +16,8 @@ namespace facemap {
 /// one order, row by row and from left to right, so that it does not depend on the bands or the threads.
 class FilteredRows {
  public:
-  /// Of a picture of `width` x `height` pixels.
-  FilteredRows(const PixelFilter& filter, int width, int height);
+  /// Of a picture of `width` x `height` pixels. Samples of another piece of it do not count for a pixel.
+  FilteredRows(const PixelFilter& filter, int width, int height, const PicturePieces& pieces = {});
 
   /// The samples of a row of the band, 0 being its first; it may be written to `scratch` (a row's length).
   using Row = std::function<const Color*(int row, Color* scratch)>;
@@ -36,7 +37,7 @@ class FilteredRows {
 
   const PixelFilter filter_;
   const int width_, height_;
-  std::vector<PixelFilter::Window> columns_;
+  std::vector<PixelFilter::Window> columns_, rows_;
   std::vector<std::vector<Sum>> open_;  // sums of pixel rows open_from_ and below, which wait for more samples
   int open_from_ = 0, next_row_ = 0;
 };

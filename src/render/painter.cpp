@@ -15,12 +15,16 @@ constexpr int kRowsOfBand = 16;  // of pixels whose samples are kept until they 
 
 }  // namespace
 
-Painter::Painter(const Eye& eye, std::span<const simd::LightSource> lights, const ListsOfLights& lists,
-                 const Renderer::Options& options, const MaterialTable* materials, const Executor& executor,
-                 Report report)
-    : eye_(eye), options_(options), executor_(executor), report_(std::move(report)) {
+Painter::Painter(const View& view, const Eye& eye, std::span<const simd::LightSource> lights,
+                 const ListsOfLights& lists, const Renderer::Options& options, const MaterialTable* materials,
+                 const Executor& executor, Report report)
+    : eye_(eye),
+      options_(options),
+      executor_(executor),
+      report_(std::move(report)),
+      made_(pixels_about_crop(options)),
+      pieces_(PicturePieces::of(view, made_)) {
   const bool edges = options.sampling == Renderer::Sampling::Edges;
-  made_ = pixels_about_crop(options);
   image_.width = made_.width;
   image_.height = made_.height;
   image_.light_count = static_cast<int>(lights.size());
@@ -54,7 +58,7 @@ Image Painter::paint(Renderer::Statistics& statistics) {
 // Each pixel from the samples about it: a pixel that is not divided counts as so many equal ones.
 void Painter::filter_samples(double done_before) {
   const int n = options_.samples;
-  FilteredRows filtered(PixelFilter(options_.filter, options_.filter_width, n), made_.width, made_.height);
+  FilteredRows filtered(PixelFilter(options_.filter, options_.filter_width, n), made_.width, made_.height, pieces_);
   const std::size_t row_length = static_cast<std::size_t>(made_.width) * static_cast<std::size_t>(n);
   std::vector<Color> samples, pixels(image_.pixels.size());
   for (int first = 0; first < made_.height; first += kRowsOfBand) {
@@ -203,6 +207,7 @@ bool Painter::may_hold_edge(int x, int y, Worker& worker) const {
   if (!eye_.cut_outs_at(made_.x + x, made_.y + y).empty()) return true;
   for (int v = std::max(0, y - 1); v <= std::min(image_.height - 1, y + 1); ++v) {
     for (int u = std::max(0, x - 1); u <= std::min(image_.width - 1, x + 1); ++u) {
+      if (!pieces_.are_one(x, y, u, v)) continue;
       const std::size_t other = index(u, v);
       if (image_.ids[other] != image_.ids[own] || !same_lights(own, other)) return true;
     }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "parallel/executor.h"
+#include "render/picture_pieces.h"
 #include "render/shade.h"
 
 namespace facemap {
@@ -21,7 +22,8 @@ class Painter {
   /// `report` is called now and then with the fraction done; it may throw.
   using Report = std::function<void(double)>;
 
-  Painter(const Eye& eye, std::span<const simd::LightSource> lights, const ListsOfLights& lists,
+  /// `eye` is that of `view`.
+  Painter(const View& view, const Eye& eye, std::span<const simd::LightSource> lights, const ListsOfLights& lists,
           const Renderer::Options& options, const MaterialTable* materials, const Executor& executor, Report report);
 
   /// Call once. Adds queries, tests and upsampled pixels to `statistics`.
@@ -67,7 +69,8 @@ class Painter {
   Report report_;
   std::mutex reporting_;
   int rows_done_ = 0;
-  PixelBox made_;  // of the picture: those that are asked for, and those about them that are looked at
+  const PixelBox made_;  // of the picture: those that are asked for, and those about them that are looked at
+  const PicturePieces pieces_;
   std::vector<std::unique_ptr<Worker>> workers_;
   Image image_;
 };

@@ -7,7 +7,7 @@
 namespace facemap {
 
 /// How much the samples about a pixel count for its colour: the same along x and along y, and for every pixel but for
-/// samples that would lie outside the picture, which are left out.
+/// samples that would lie outside the picture, or in another piece of it, which are left out.
 class PixelFilter {
  public:
   /// `width`: of the window, in pixels, of the Blackman-Harris filter; a box is one pixel wide.
@@ -23,8 +23,8 @@ class PixelFilter {
   /// Pixels on either side whose samples count.
   int reach() const { return (-first_ + per_side_ - 1) / per_side_; }
 
-  /// The places in weights() of the samples that are inside the picture, for one of its `pixels` columns or rows:
-  /// weights [begin, end), and their sum.
+  /// The places in weights() of the samples that are inside the picture (or piece), for one of its `pixels` columns or
+  /// rows: weights [begin, end), and their sum.
   struct Window {
     int begin, end;
     double sum;

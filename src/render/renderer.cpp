@@ -246,7 +246,7 @@ Image Renderer::paint_by_lists(const Request& request, const Eye& eye, std::size
   statistics_.map_bytes += map_bytes;
   const Stopwatch shade_time;
   const std::vector<simd::LightSource> sources = light_sources(lights_, request.options.falloff);
-  Painter painter(eye, sources, kept_->lists, request.options, kept_->materials.get(), kept_->executor,
+  Painter painter(view_, eye, sources, kept_->lists, request.options, kept_->materials.get(), kept_->executor,
                   [&](double fraction) { request.report(fraction, "shade"); });
   Image image = request.wants_colours ? painter.paint(statistics_) : painter.look(statistics_);
   statistics_.shade_ms += shade_time.milliseconds();

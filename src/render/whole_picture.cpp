@@ -277,7 +277,7 @@ Image WholePicture::paint() {
   band_count_ = grids.size() + centres.size();
   const bool is_box = options_.filter == Renderer::Filter::Box;
   FilteredRows filtered(PixelFilter(options_.filter, options_.filter_width, options_.samples), image.width,
-                        image.height);
+                        image.height, PicturePieces::of(view_, made_pixels(options_)));
 
   for (const SampleGrid& band : grids) {
     const SampleGrid grid = with_directions(band);

@@ -151,6 +151,47 @@ TEST(EdgeSampling, ThinWiresAreWholeWithoutListsOfPixels) {
   }
 }
 
+// Faces that lie side by side in a row do so one above the other in a column: nothing of one gets into another.
+TEST(EdgeSampling, FacesOfACubeMapDoNotDependOnTheLayout) {
+  constexpr int kSide = 24;
+  const Scene scene(ball_on_floor(12, true));
+  View view = make_up_view(scene);
+  view.position = {1.5f, 0.25f, 0.5f};
+  view.look_at = {0, 0, 0};
+  const auto render = [&](CubeLayout layout, Renderer::Options options) {
+    view.lens = Lens::cube_map(layout, kSide);
+    options.width = view.lens->width();
+    options.height = view.lens->height();
+    return Renderer(scene, view, make_up_lights(scene), options).render();
+  };
+  const auto face_of = [](const Image& image, int face) {
+    const bool is_row = image.width > image.height;
+    const int left = is_row ? face * kSide : 0, top = is_row ? 0 : face * kSide;
+    std::vector<Color> pixels;
+    for (int y = top; y < top + kSide; ++y) {
+      for (int x = left; x < left + kSide; ++x)
+        pixels.push_back(image.pixels[static_cast<std::size_t>(y * image.width + x)]);
+    }
+    return pixels;
+  };
+  for (const Builder builder : {Builder::Cover, Builder::Fill}) {
+    for (const Filter filter : {Filter::Box, Filter::BlackmanHarris}) {
+      for (const auto sampling : {Renderer::Sampling::Edges, Renderer::Sampling::Grid}) {
+        Renderer::Options options = edges(kSide, 4);
+        options.background = {0.9f, 0.2f, 0.1f};
+        options.builder = builder;
+        options.sampling = sampling;
+        options.filter = filter;
+        options.filter_width = 3;
+        const Image row = render(CubeLayout::Row6x1, options), column = render(CubeLayout::Column1x6, options);
+        for (int face = 0; face < 6; ++face) {
+          EXPECT_TRUE(face_of(row, face) == face_of(column, face)) << static_cast<int>(filter) << " face " << face;
+        }
+      }
+    }
+  }
+}
+
 TEST(EdgeSampling, ThreadsMemoryAndStrategyChangeNothing) {
   for (const bool smooth : {false, true}) {
     const Scene scene(ball_on_floor(12, smooth));
