@@ -55,7 +55,7 @@ std::vector<WantedView> wanted_views(const RenderArguments& arguments, const Wor
   std::vector<WantedView> views;
   for (const SceneCamera& camera : chosen(cameras, arguments.camera_name)) {
     const Words words = merge_cameras(merge_cameras(given, camera_words(camera, arguments.model)), loaded.words);
-    views.push_back(arguments_of(words).frames.each().front());
+    views.push_back(with_places(words, [&] { return arguments_of(words).frames.each().front(); }));
   }
   return views;
 }

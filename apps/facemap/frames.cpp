@@ -1,5 +1,7 @@
 #include "frames.h"
 
+#include <facemap/error.h>
+#include <facemap/space_vector.h>
 #include <facemap/turntable.h>
 
 #include <algorithm>
@@ -8,6 +10,8 @@
 
 namespace facemap::program {
 namespace {
+
+constexpr double kHalfTurn = 3.14159265358979323846;
 
 /// The value of frame `i` from a list that has none, one or one a frame.
 template <typename Value>
@@ -29,11 +33,25 @@ void check_lens(const WantedFrames& wanted) {
   if (!wanted.lens.has_field_angle() && !wanted.field_angles.empty()) {
     throw UsageError("--field-angle is for the surface and plane lenses");
   }
+  const bool is_plane = wanted.lens.name ? wanted.lens.is(LensName::Plane) : wanted.projection == ProjectionKind::Plane;
+  for (const double angle : wanted.field_angles) {
+    if (is_plane && angle >= kHalfTurn) throw UsageError("--field-angle: a plane picture shows less than 180 degrees");
+  }
   if (!wanted.lens.pose) return;
   if (!wanted.cameras.empty() || !wanted.look_ats.empty() || !wanted.ups.empty()) {
     throw UsageError("--opencv-pose takes the place of --camera, --look-at and --up; give one or the other");
   }
   if (wanted.turntable > 0) throw UsageError("--turntable needs a point to look at, which --opencv-pose has not");
+}
+
+/// A camera must look somewhere, and know which way is up.
+void check_sight(const View& view) {
+  if (view.position == view.look_at) throw UsageError("--look-at: the camera stands at the point that it looks at");
+  try {
+    SpaceVector::looking_at(view.position, view.look_at, view.up);
+  } catch (const Error& error) {
+    throw UsageError(std::string("--up: ") + error.what());
+  }
 }
 
 }  // namespace
@@ -82,6 +100,7 @@ std::vector<View> complete_views(const BoundingBall& ball, const Vector& up, con
   for (WantedView view : wanted) {
     view.size = size;
     views.push_back(complete_view(ball, up, view));
+    check_sight(views.back());
   }
   return turntable > 0 ? facemap::turntable(views[0], turntable) : views;
 }

@@ -20,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kStandardInput = "standard input";
-constexpr std::size_t kHead = 4096;  ///< bytes that tell what a file is
+constexpr double kLargestRadius = 1e37;  ///< a camera some radii away still has float32 coordinates
+constexpr std::size_t kHead = 4096;      ///< bytes that tell what a file is
 
 std::string head_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -128,6 +129,8 @@ Loaded load(const Input& input, const Words& words) {
   const BoundingBall ball = bounding_ball(model.mesh);
   Words all = words;
   if (arguments.studio && !input.is_scene) {
+    if (!(ball.radius <= kLargestRadius))
+      throw Error(arguments.model.string() + ": its coordinates are too large for a view to be made up");
     all =
         merge(words, studio_words(make_studio(model.mesh, up, arguments.size().width, arguments.size().height), words));
     arguments = arguments_of(all);

@@ -1,5 +1,7 @@
 #include "lens_flags.h"
 
+#include <facemap/error.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -69,6 +71,17 @@ Lens cube(const WantedLens& lens, const Size& size) {
   return Lens::cube_map(layout, side);
 }
 
+/// What a calibrated camera cannot be is told with its flags.
+template <typename Make>
+Lens opencv(const WantedLens& lens, const Make& make) {
+  try {
+    return make();
+  } catch (const Error& error) {
+    throw UsageError(std::string(lens.distortion ? "--camera-matrix, --distortion: " : "--camera-matrix: ") +
+                     error.what());
+  }
+}
+
 }  // namespace
 
 // -R^T t.
@@ -111,7 +124,7 @@ std::vector<Option> lens_options(WantedLens& lens) {
        "to the right, y down, z ahead; in place of --camera, --look-at and --up",
        [&lens](const std::string& text) { lens.pose = parse_pose(text); }},
       {"--ortho-height", "LENGTH", "made up", "world units that an orthographic picture shows from bottom to top",
-       [&lens](const std::string& text) { lens.height = parse_number(text); }},
+       [&lens](const std::string& text) { lens.height = parse_above_0(text); }},
   };
 }
 
@@ -151,12 +164,14 @@ void set_lens(const WantedLens& lens, const Size& size, View& view) {
       view.lens = cube(lens, size);
       return;
     case LensName::OpenCV:
-      view.lens =
-          Lens::opencv_pinhole(*lens.matrix, PinholeDistortion::from_opencv(distortion), size.width, size.height);
+      view.lens = opencv(lens, [&] {
+        return Lens::opencv_pinhole(*lens.matrix, PinholeDistortion::from_opencv(distortion), size.width, size.height);
+      });
       return;
     case LensName::OpenCVFisheye:
-      view.lens =
-          Lens::opencv_fisheye(*lens.matrix, FisheyeDistortion::from_opencv(distortion), size.width, size.height);
+      view.lens = opencv(lens, [&] {
+        return Lens::opencv_fisheye(*lens.matrix, FisheyeDistortion::from_opencv(distortion), size.width, size.height);
+      });
       return;
   }
 }

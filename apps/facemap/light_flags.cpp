@@ -48,6 +48,7 @@ class Parts {
 
   Color color() {
     const Vector rgb = vector();
+    if (rgb.x < 0 || rgb.y < 0 || rgb.z < 0) throw UsageError("'" + text_ + "': a colour's value is below 0");
     return {rgb.x, rgb.y, rgb.z};
   }
 

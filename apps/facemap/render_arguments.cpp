@@ -88,7 +88,7 @@ std::vector<Option> light_options(RenderArguments& a) {
        "a directional light, by the way its light goes; in a light mask point lights come first, then spots, then "
        "these",
        append_to(a.lights, parse_sun), true},
-      {"--intensity", "FACTOR", "1", "multiplies the colour of every light", into(a.intensity, parse_number)},
+      {"--intensity", "FACTOR", "1", "multiplies the colour of every light", into(a.intensity, parse_at_least_0)},
       one_of("--falloff", "constant", "how light fades with distance: constant or inverse-square", a.options.falloff,
              {"constant", "inverse-square"}),
       {"--background", "COLOR", "0,0,0", "where no face is: linear r,g,b or sRGB #rrggbb",

@@ -156,7 +156,7 @@ void render(const Words& typed) {
   const Scene& scene = loaded.scene;
   stats.load_ms = phase.lap();
 
-  const RenderArguments arguments = checked(loaded.words);
+  const RenderArguments arguments = with_places(loaded.words, [&] { return checked(loaded.words); });
   say_what_is_odd(scene, arguments.model);
   say_what_was_read(scene, arguments, stats.load_ms);
   const std::vector<WantedView> wanted = wanted_views(arguments, given, input, loaded);
@@ -166,7 +166,8 @@ void render(const Words& typed) {
   const std::vector<View> views(all_views.begin() + static_cast<std::ptrdiff_t>(range.first),
                                 all_views.begin() + static_cast<std::ptrdiff_t>(range.last) + 1);
   const WantedLights lights = wanted_lights(arguments, input, loaded);
-  const std::vector<FrameFiles> files = check_files(arguments, all_views.size());
+  const std::vector<FrameFiles> files =
+      with_places(loaded.words, [&] { return check_files(arguments, all_views.size()); });
   check_inputs_stay(files, arguments.output.scene, input, scene);
   say_what_was_made_up(wanted, all_views, range, lights);
 

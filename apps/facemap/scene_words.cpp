@@ -52,14 +52,16 @@ std::string place_of(const SceneSetting& setting, const fs::path& file) {
   return file.string() + ":" + std::to_string(setting.line) + ":" + std::to_string(setting.column);
 }
 
-/// The settings whose names are among `known`.
+/// The settings whose names are among `known`; `keys`: what else the table may hold.
 Words words_of(const std::vector<SceneSetting>& settings, const std::vector<std::string>& known, const char* table,
-               const fs::path& file) {
+               const fs::path& file, const std::vector<std::string>& keys = {}) {
   Words words;
   for (const SceneSetting& setting : settings) {
     const std::string place = place_of(setting, file);
     if (!is_among(setting.name, known)) {
-      throw Error(place + ": unknown key \"" + setting.name + "\" in " + table + suggestion(setting.name, known) +
+      std::vector<std::string> all = known;
+      all.insert(all.end(), keys.begin(), keys.end());
+      throw Error(place + ": unknown key \"" + setting.name + "\" in " + table + suggestion(setting.name, all) +
                   " (known: the flags of facemap render that shape the picture)");
     }
     for (const std::string& value : setting.values) words.push_back({setting.name, value, place});
@@ -91,7 +93,7 @@ Words camera_words(const SceneCamera& camera, const fs::path& file) {
       if (may_be_set(option) && name != "up" && name != "turntable" && name != "frames") known.push_back(name);
     }
   }
-  Words words = words_of(camera.settings, known, "[[camera]]", file);
+  Words words = words_of(camera.settings, known, "[[camera]]", file, {"name", "position", "look-at", "up"});
   add_vector(words, "camera", camera.position);
   add_vector(words, "look-at", camera.look_at);
   add_vector(words, "up", camera.up);

@@ -8,25 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "report.h"
+
 namespace facemap::program {
 namespace {
-
-std::string quoted(const std::string& text) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::string result = "\"";
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      result += '\\';
-      result += c;
-    } else if (code < 0x20) {
-      result += std::string("\\u00") + kDigits[code >> 4] + kDigits[code & 15];
-    } else {
-      result += c;
-    }
-  }
-  return result + "\"";
-}
 
 std::string number(std::uint64_t value) { return std::to_string(value); }
 
@@ -48,7 +33,7 @@ struct Field {
   std::vector<Field> parts = {};
 };
 
-Field text_field(std::string name, const std::string& text) { return {std::move(name), quoted(text)}; }
+Field text_field(std::string name, const std::string& text) { return {std::move(name), json_text(text)}; }
 
 Field tests(std::string name, std::uint64_t queries, const Counters& counters) {
   return {std::move(name),
@@ -105,10 +90,10 @@ std::vector<Field> fields_of(const Stats& stats, const Scene& scene) {
 }
 
 std::string json(const Field& field) {
-  if (field.parts.empty()) return quoted(field.name) + ": " + field.value;
+  if (field.parts.empty()) return json_text(field.name) + ": " + field.value;
   std::string parts;
   for (const Field& part : field.parts) parts += (parts.empty() ? "" : ", ") + json(part);
-  return quoted(field.name) + ": {" + parts + "}";
+  return json_text(field.name) + ": {" + parts + "}";
 }
 
 std::string text_line(const std::string& name, const std::string& value) {

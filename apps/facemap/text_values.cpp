@@ -81,6 +81,18 @@ float parse_number(const std::string& text) {
   return number;
 }
 
+float parse_at_least_0(const std::string& text) {
+  const float number = parse_number(text);
+  if (number < 0) refuse(text, "a number of 0 or more");
+  return number;
+}
+
+float parse_above_0(const std::string& text) {
+  const float number = parse_number(text);
+  if (!(number > 0)) refuse(text, "a number above 0");
+  return number;
+}
+
 int parse_whole_number(const std::string& text, int least, int most) {
   int number = 0;
   if (!read(text, number) || number < least || number > most) {
@@ -169,6 +181,7 @@ Color parse_color(const std::string& text) {
   }
   const std::vector<float> numbers = read_numbers(text);
   if (numbers.size() != 3) refuse(text, "a colour: three linear values r,g,b, or #rrggbb");
+  if (numbers[0] < 0 || numbers[1] < 0 || numbers[2] < 0) refuse(text, "a colour: a value is below 0");
   return {numbers[0], numbers[1], numbers[2]};
 }
 

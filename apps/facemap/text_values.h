@@ -15,6 +15,8 @@ namespace facemap::program {
 /// The parsers throw UsageError that says what was expected.
 
 float parse_number(const std::string& text);
+float parse_at_least_0(const std::string& text);
+float parse_above_0(const std::string& text);
 int parse_whole_number(const std::string& text, int least, int most);
 
 /// Stops, -64 to 64, and the width of a filter in pixels, above 0 to 16.

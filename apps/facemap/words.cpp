@@ -7,8 +7,6 @@
 #include <map>
 #include <set>
 
-#include "usage_error.h"
-
 namespace facemap::program {
 namespace {
 
@@ -35,6 +33,18 @@ bool is_said_otherwise(const Words& first, const std::string& name) {
   if (name == "crop") return has(first, "tile");
   if (name == "tile") return has(first, "crop");
   return (name == "camera" || name == "look-at" || name == "up") && has(first, "opencv-pose");
+}
+
+/// Whether a message says --name, and not the beginning of a longer one.
+bool names_flag(const std::string& message, const std::string& name) {
+  const std::string flag = "--" + name;
+  const auto goes_on = [&](std::size_t end) {
+    return end < message.size() && (message[end] == '-' || (message[end] >= 'a' && message[end] <= 'z'));
+  };
+  for (std::size_t at = message.find(flag); at != std::string::npos; at = message.find(flag, at + 1)) {
+    if (!goes_on(at + flag.size())) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -101,6 +111,16 @@ void set_options(const std::vector<Option>& options, const Words& words) {
       refuse(word, error.what());
     }
   }
+}
+
+void refuse_at_its_place(const Words& words, const std::string& message) {
+  const Word* named = nullptr;
+  for (const Word& word : words) {
+    if (!names_flag(message, word.name)) continue;
+    if (word.place.empty()) return;
+    if (named == nullptr) named = &word;
+  }
+  if (named != nullptr) throw Error(named->place + ": " + message);
 }
 
 std::string quoted_for_shell(const std::string& text) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "options.h"
+#include "usage_error.h"
 
 namespace facemap::program {
 
@@ -32,6 +33,21 @@ std::vector<Option> recorded(std::vector<Option> options, Words& words);
 
 /// Sets options by their words. Throws UsageError, or Error with the place of a word of a scene file.
 void set_options(const std::vector<Option>& options, const Words& words);
+
+/// Throws Error if `message` names flags of `words` that all stand in a scene file.
+void refuse_at_its_place(const Words& words, const std::string& message);
+
+/// Runs what throws UsageError for flags that do not go together. If a word of a scene file is named, and none of the
+/// command line, the file is at fault: Error with its place.
+template <typename Run>
+auto with_places(const Words& words, const Run& run) {
+  try {
+    return run();
+  } catch (const UsageError& error) {
+    refuse_at_its_place(words, error.what());
+    throw;
+  }
+}
 
 /// The words as flags of a command line, quoted for a shell where need be.
 std::string flags_of(const Words& words);

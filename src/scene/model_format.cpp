@@ -68,13 +68,16 @@ ModelFormat sniff_format(std::string_view bytes, const std::filesystem::path& ex
   if (head.starts_with("ply\n") || head.starts_with("ply\r")) return ModelFormat::Ply;
   if (head.starts_with("glTF")) return ModelFormat::GltfBinary;
   if (is_stl_binary_by_size(bytes)) return ModelFormat::StlBinary;
-  const ModelFormat named = format_of_extension(lower_case(extension.string()));
-  // A text that says "solid ..." in its first line could only be an OBJ file that begins with a mistake.
-  if (named != ModelFormat::Obj && is_stl_text(bytes)) return ModelFormat::StlText;
-  if (named != ModelFormat::Unknown) return named;
   if (head.starts_with(kByteOrderMark)) head.remove_prefix(kByteOrderMark.size());
   const std::string_view word = first_word(head);
   if (word.starts_with('{')) return ModelFormat::GltfJson;
+  const ModelFormat named = format_of_extension(lower_case(extension.string()));
+  // A text that says "solid ..." in its first line could only be an OBJ file that begins with a mistake.
+  if (named != ModelFormat::Obj && is_stl_text(bytes)) return ModelFormat::StlText;
+  // A binary STL file whose size is wrong has zeros all the same.
+  const bool is_obj_text = is_obj_statement(word) && head.find('\0') == std::string_view::npos;
+  if (named == ModelFormat::StlBinary && is_obj_text) return ModelFormat::Obj;
+  if (named != ModelFormat::Unknown) return named;
   return is_obj_statement(word) ? ModelFormat::Obj : ModelFormat::Unknown;
 }
 

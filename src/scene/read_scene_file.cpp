@@ -1,4 +1,5 @@
 #include <facemap/scene_file.h>
+#include <facemap/space_vector.h>
 
 #include <algorithm>
 #include <optional>
@@ -56,6 +57,9 @@ class SceneReader {
     for (const DVector& column : {model.transform.x, model.transform.y, model.transform.z, model.transform.origin}) {
       if (glm::dot(column, DVector(0)) != 0) file_.fail(table, Cause::BadNumber, "[[model]]'s transform is too large");
     }
+    if (glm::dot(glm::cross(model.transform.x, model.transform.y), model.transform.z) == 0)
+      file_.fail(table.contains("matrix") ? *table.get("matrix") : table, Cause::BadValue,
+                 "[[model]]'s transform flattens the model");
     return model;
   }
 
@@ -153,7 +157,20 @@ class SceneReader {
         file_.add_setting(camera.settings, key, node);
       }
     }
+    check_sight(table, camera);
     return camera;
+  }
+
+  void check_sight(const toml::table& table, const SceneCamera& camera) const {
+    if (!camera.position || !camera.look_at) return;
+    if (camera.position == camera.look_at)
+      file_.fail(table, Cause::BadValue, "[[camera]] stands at the point that it looks at");
+    if (!camera.up) return;
+    try {
+      SpaceVector::looking_at(*camera.position, *camera.look_at, *camera.up);
+    } catch (const Error& error) {
+      file_.fail(table, Cause::BadValue, std::string("[[camera]]: ") + error.what());
+    }
   }
 
   Light read_light(const toml::table& table) const {
@@ -167,12 +184,21 @@ class SceneReader {
     if (light.kind == Light::Kind::Spot) read_cone(table, light);
     if (light.kind != Light::Kind::Spot && (table.contains("inner_angle") || table.contains("outer_angle")))
       file_.fail(table, Cause::BadValue, "only a light of kind \"spot\" has angles");
-    if (const toml::node* const color = table.get("color")) light.color = file_.color(*color);
-    if (const toml::node* const intensity = table.get("intensity")) light.intensity = file_.real(*intensity);
+    if (const toml::node* const color = table.get("color")) light.color = read_light_color(*color);
+    if (const toml::node* const intensity = table.get("intensity")) {
+      light.intensity = file_.real(*intensity);
+      if (light.intensity < 0) file_.fail(*intensity, Cause::BadValue, "is below 0");
+    }
     if (const toml::node* const falloff = table.get("falloff"))
       light.has_falloff = file_.choice(*falloff, {"constant", "inverse-square"}) == 1;
     if (const toml::node* const range = table.get("range")) light.range = file_.positive(*range);
     return light;
+  }
+
+  Color read_light_color(const toml::node& node) const {
+    const Color color = file_.color(node);
+    if (color.r < 0 || color.g < 0 || color.b < 0) file_.fail(node, Cause::BadValue, "has a value below 0");
+    return color;
   }
 
   void read_place(const toml::table& table, Light& light) const {

@@ -17,6 +17,8 @@ using Cause = LoadError::Cause;
 
 constexpr std::ptrdiff_t kMostDotsInLine = 200;  ///< each may open a table, and tables are closed by recursion
 
+constexpr std::size_t kMostSettings = 1000;  ///< of a table, and values of each: every option is far from it
+
 /// Keys of very many parts would nest tables deeper than a stack can close them.
 void check_dots(std::string_view text, const std::string& name) {
   std::int64_t line = 1;
@@ -205,6 +207,8 @@ std::vector<std::string> TomlFile::texts(const toml::node& node) const {
   const toml::array* const array = node.as_array();
   if (array == nullptr) return {scalar_text(node)};
   if (array->empty()) fail(node, Cause::BadValue, "is an empty array");
+  if (array->size() > kMostSettings)
+    fail(node, Cause::Unsupported, "has more than " + std::to_string(kMostSettings) + " values");
   if (!(*array)[0].is_array() && !(*array)[0].is_string()) return {joined_text(*array)};
   std::vector<std::string> texts;
   for (const toml::node& element : *array) {
@@ -216,6 +220,8 @@ std::vector<std::string> TomlFile::texts(const toml::node& node) const {
 void TomlFile::add_setting(std::vector<SceneSetting>& settings, const toml::key& key, const toml::node& node) const {
   const std::string name = setting_name(key);
   const toml::source_position at = key.source().begin;
+  if (settings.size() == kMostSettings)
+    fail(key, Cause::Unsupported, "more than " + std::to_string(kMostSettings) + " settings");
   for (const SceneSetting& setting : settings) {
     if (setting.name == name) fail(key, Cause::BadValue, "\"" + name + "\" is given more than once");
   }

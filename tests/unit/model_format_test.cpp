@@ -37,6 +37,9 @@ TEST(ModelFormat, TheExtensionDecidesWhereTheContentDoesNot) {
   EXPECT_EQ(sniff_format(binary_stl("head", 2, 1), ".stl"), ModelFormat::StlBinary);
   EXPECT_EQ(sniff_format(binary_stl("head", 2, 1)), ModelFormat::Unknown);
   EXPECT_EQ(sniff_format("broken", ".gltf"), ModelFormat::GltfJson);
+  EXPECT_EQ(sniff_format("{\"asset\": {}}", ".obj"), ModelFormat::GltfJson) << "no OBJ file begins so";
+  EXPECT_EQ(sniff_format("v 0 0 0\nv 1 0 0\n", ".stl"), ModelFormat::Obj) << "a text is no binary file";
+  EXPECT_EQ(sniff_format(binary_stl("v", 2, 1), ".stl"), ModelFormat::StlBinary);
   EXPECT_EQ(sniff_format("broken", ".glb"), ModelFormat::GltfBinary);
   EXPECT_EQ(sniff_format("broken", ".ply"), ModelFormat::Ply);
 }
