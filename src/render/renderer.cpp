@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <span>
 
 #include "map/light_lists.h"
 #include "material/material_table.h"
@@ -55,6 +56,7 @@ struct Renderer::Kept {
   Executor executor;
   std::mutex reporting;
   ListsOfLights lists;                      // null until made
+  bool lists_are_full = false;              // no more fit Options::map_memory
   std::shared_ptr<const CutOuts> cut_outs;  // null: all faces are solid
   bool knows_cut_outs = false;
   TransposedState transposed;
@@ -203,26 +205,42 @@ void Renderer::load_materials() {
   statistics_.shade_ms += time.milliseconds();
 }
 
-// Directional lights have lists with either strategy.
+// Directional lights have lists with either strategy. With the transposed one those that do not fit Options::map_memory
+// are left to WholePicture.
 void Renderer::build_lists(const Request& request, bool of_all) {
   const Stopwatch time;
   ListsOfLights& lists = kept_->lists;
+  const bool is_limited = !of_all && options_.map_memory != 0;
   std::vector<std::size_t> missing;
-  for (std::size_t l = 0; l < lists.size(); ++l) {
+  for (std::size_t l = 0; l < lists.size() && !(is_limited && kept_->lists_are_full); ++l) {
     if (lists[l] == nullptr && (of_all || lights_[l].kind == Light::Kind::Directional)) missing.push_back(l);
   }
+  std::size_t bytes = 0;
+  for (const auto& of_light : lists) bytes += of_light != nullptr ? of_light->memory_bytes() : 0;
   PointLight::Options wanted;
   wanted.builder = request.options.builder;
   wanted.cut_outs = options_.materials;
   wanted.max_texture_pixels = options_.max_texture_pixels;
   std::size_t done = 0;
-  kept_->executor.for_each(missing.size(), [&](std::size_t i, int) {
-    const std::size_t l = missing[i];
-    lists[l] = std::make_unique<LightLists>(*scene_, lights_[l], wanted);
-    const std::scoped_lock lock(kept_->reporting);
-    request.report(static_cast<double>(++done) / static_cast<double>(missing.size()), "light maps");
-  });
-  for (const auto& of_light : lists) statistics_.map_bytes += of_light != nullptr ? of_light->memory_bytes() : 0;
+  const std::size_t together = is_limited ? static_cast<std::size_t>(kept_->executor.threads()) : missing.size();
+  for (std::size_t first = 0; first < missing.size(); first += together) {
+    const std::span<const std::size_t> next =
+        std::span(missing).subspan(first).first(std::min(together, missing.size() - first));
+    kept_->executor.for_each(next.size(), [&](std::size_t i, int) {
+      lists[next[i]] = std::make_unique<LightLists>(*scene_, lights_[next[i]], wanted);
+      const std::scoped_lock lock(kept_->reporting);
+      request.report(static_cast<double>(++done) / static_cast<double>(missing.size()), "light maps");
+    });
+    for (const std::size_t l : next) {
+      bytes += lists[l]->memory_bytes();
+      if (!is_limited || bytes <= options_.map_memory) continue;
+      bytes -= lists[l]->memory_bytes();
+      lists[l] = nullptr;
+      kept_->lists_are_full = true;
+    }
+    if (is_limited && kept_->lists_are_full) break;
+  }
+  statistics_.map_bytes += bytes;
   statistics_.light_maps_ms += time.milliseconds();
 }
 

@@ -199,6 +199,27 @@ void WholePicture::prepare_lights(const SampleGrid& grid, const MovedPoints& mov
   }
 }
 
+// Of directional lights whose lists are not kept: those of few lights at a time.
+void WholePicture::ask_passing_lists(const SampleGrid& grid, const MovedPoints& moved, SeenPoints& seen) {
+  std::vector<std::size_t> missing;
+  for (std::size_t l = 0; l < lists_.size(); ++l) {
+    if (places_.is_parallel[l] != 0 && lists_[l] == nullptr) missing.push_back(l);
+  }
+  PointLight::Options wanted;
+  wanted.cut_outs = options_.materials;
+  wanted.max_texture_pixels = options_.max_texture_pixels;
+  const auto together = static_cast<std::size_t>(executor_.threads());
+  for (std::size_t first = 0; first < missing.size(); first += together) {
+    ListsOfLights passing(std::min(together, missing.size() - first));
+    executor_.for_each(passing.size(), [&](std::size_t i, int) {
+      passing[i] = std::make_unique<LightLists>(scene_, lights_[missing[first + i]], wanted);
+    });
+    std::vector<const LightLists*> of_lights(lists_.size());
+    for (std::size_t i = 0; i < passing.size(); ++i) of_lights[missing[first + i]] = passing[i].get();
+    clear_blocked_by_lists(of_lights, scene_, grid, executor_, moved, seen, statistics_.light_tests);
+  }
+}
+
 void WholePicture::ask_lights(const SampleGrid& grid, SeenPoints& seen) {
   report(0.2, "light maps");
   const Stopwatch moved_time;
@@ -216,6 +237,7 @@ void WholePicture::ask_lights(const SampleGrid& grid, SeenPoints& seen) {
   if (std::any_of(lists_.begin(), lists_.end(), [](const LightLists* lists) { return lists != nullptr; })) {
     clear_blocked_by_lists(lists_, scene_, grid, executor_, moved, seen, statistics_.light_tests);
   }
+  ask_passing_lists(grid, moved, seen);
   if (transposes_) {
     const LightWork work{
         solid_, places_, state_.closed.get(), &state_.bounds, executor_, state_.scratch, [this](double share) {

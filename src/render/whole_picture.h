@@ -37,9 +37,9 @@ class WholePicture {
   /// Called now and then with the fraction done and the phase's name; it may throw.
   using Report = std::function<void(double, const char*)>;
 
-  /// `cut_outs`: what materials take away from faces, or null. `lists`: of directional lights, and of all if
-  /// `asks_lists`; else the transposed way is taken for those with a place, and if `keeps_bounds` their bounds are
-  /// made, if they are not.
+  /// `cut_outs`: what materials take away from faces, or null. `lists`: of all lights if `asks_lists`, else of
+  /// directional ones; those that are null there are made when they are asked, and dropped. The transposed way is then
+  /// taken for lights with a place, and if `keeps_bounds` their bounds are made, if they are not.
   WholePicture(const Scene& scene, const std::shared_ptr<const CutOuts>& cut_outs, const View& view,
                const std::vector<Light>& lights, const Renderer::Options& options, const Executor& executor,
                TransposedState& state, const ListsOfLights& lists, bool asks_lists, bool keeps_bounds,
@@ -70,6 +70,7 @@ class WholePicture {
   Seen see(const SampleGrid& grid) { return see(grid, nearest_faces(grid)); }
   void prepare_lights(const SampleGrid& grid, const MovedPoints& moved, SeenPoints& seen);
   void ask_lights(const SampleGrid& grid, SeenPoints& seen);
+  void ask_passing_lists(const SampleGrid& grid, const MovedPoints& moved, SeenPoints& seen);
   bool has_holes() const { return cut_outs_ != nullptr && cut_outs_->any(); }
   Image empty_image(int per_side) const;
   void paint_centres(EdgePixels& edges, Image& image);
@@ -88,7 +89,7 @@ class WholePicture {
   const Executor& executor_;
   TransposedState& state_;
   const LightPlaces places_;
-  std::vector<const LightLists*> lists_;  // one a light; null: it is not asked
+  std::vector<const LightLists*> lists_;  // one a light; null: there are none that are kept
   bool transposes_;                       // there are lights that are not
   bool keeps_bounds_;
   const MaterialTable* materials_;  // null: all is white

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "map/light_lists.h"
 #include "support/random.h"
 #include "support/scenes.h"
 
@@ -102,6 +103,34 @@ TEST(Lights, TheSunFromBelowOrAlongTheFloorLeavesItDark) {
   const Image image = draw({sun({0, 1, 0}), sun({1, 0, 0})});
   EXPECT_EQ(image.lights[at(3, 3)], 0);
   EXPECT_EQ(image.pixels[at(3, 3)].r, 0);
+}
+
+// Lists that do not fit are made when they are asked, with the same bits, also for the next picture.
+TEST(Lights, DirectionalOnesKeepWithinTheMapMemory) {
+  std::vector<Light> lights;
+  for (int i = 0; i < 11; ++i) lights.push_back(sun(Vector(i - 5, -4, 2 - i % 3)));
+  lights.push_back(spot({-2, 2, -2}, 0.5, 1));
+  const Scene scene(floor_and_lid());
+  Renderer::Options options;
+  options.strategy = Renderer::Strategy::Transposed;
+  options.planes = {Plane::Id, Plane::Lights};
+  for (const int threads : {1, 3}) {
+    options.threads = threads;
+    options.map_memory = 0;
+    Renderer all(scene, from_above(), lights, options);
+    const Image expected = all.render();
+    const std::size_t of_one = LightLists(scene, lights[0], {}).memory_bytes();
+    for (const std::size_t memory : {std::size_t{1}, 5 * of_one}) {
+      options.map_memory = memory;
+      Renderer some(scene, from_above(), lights, options);
+      for (int picture = 0; picture < 2; ++picture) {
+        const Image image = some.render();
+        EXPECT_EQ(image.pixels, expected.pixels);
+        EXPECT_EQ(image.lights, expected.lights);
+        EXPECT_LT(some.statistics().map_bytes + 4 * of_one, all.statistics().map_bytes) << memory;
+      }
+    }
+  }
 }
 
 TEST(Lights, ASpotFadesBetweenItsAngles) {
