@@ -48,6 +48,13 @@ void put_band(std::vector<T>&& band, std::size_t first, std::size_t count, std::
   std::copy(band.begin(), band.end(), plane.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
+// The lights that reach some of the points.
+std::vector<std::uint8_t> any_of_masks(const SeenPoints& seen) {
+  std::vector<std::uint8_t> any(seen.stride);
+  for (std::size_t i = 0; i < seen.masks.size(); ++i) any[i % seen.stride] |= seen.masks[i];
+  return any;
+}
+
 std::size_t count_bits(const std::vector<std::uint8_t>& bytes) {
   std::size_t count = 0, i = 0;
   for (std::uint64_t word; i + sizeof(word) <= bytes.size(); i += sizeof(word)) {
@@ -205,6 +212,10 @@ void WholePicture::ask_passing_lists(const SampleGrid& grid, const MovedPoints& 
   for (std::size_t l = 0; l < lists_.size(); ++l) {
     if (places_.is_parallel[l] != 0 && lists_[l] == nullptr) missing.push_back(l);
   }
+  if (missing.empty()) return;
+  const std::vector<std::uint8_t> asked = any_of_masks(seen);
+  const auto is_asked = [&](std::size_t l) { return ((asked[l / 8] >> (l % 8)) & 1) != 0; };
+  missing.erase(std::partition(missing.begin(), missing.end(), is_asked), missing.end());
   PointLight::Options wanted;
   wanted.cut_outs = options_.materials;
   wanted.max_texture_pixels = options_.max_texture_pixels;
