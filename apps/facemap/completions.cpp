@@ -1,5 +1,6 @@
 #include "completions.h"
 
+#include <algorithm>
 #include <sstream>
 
 namespace facemap::program {
@@ -47,7 +48,26 @@ std::string in_brackets(const std::string& text) {
 }
 
 /// The first part of a help text.
-std::string summary_of(const Option& option) { return option.help.substr(0, option.help.find_first_of(":;,")); }
+std::string summary_of(const Option& option) { return option.help.substr(0, option.help.find(';')); }
+
+/// The words that a command's argument may be, or none.
+std::vector<std::string> argument_choices(const Command& command) {
+  for (const Option& option : command.options) {
+    if (option.is_argument()) return option.choices;
+  }
+  return {};
+}
+
+/// The name as a shell's pattern: what is no other command is a model's name, whose flags are those of render.
+std::string pattern_of(const Command& command) { return command.name == "render" ? "*" : command.name; }
+
+/// The same commands, the one whose pattern matches everything last.
+std::vector<const Command*> render_last(const std::vector<Command>& commands) {
+  std::vector<const Command*> sorted;
+  for (const Command& command : commands) sorted.push_back(&command);
+  std::stable_partition(sorted.begin(), sorted.end(), [](const Command* command) { return command->name != "render"; });
+  return sorted;
+}
 
 std::string bash_words_of(const Command& command) {
   std::vector<std::string> flags{"--help"};
@@ -56,6 +76,17 @@ std::string bash_words_of(const Command& command) {
     for (const std::string& flag : flags_of(option)) flags.push_back(flag);
   }
   return joined(flags, " ");
+}
+
+std::string bash_case(const Command& command) {
+  std::string text = "      " + pattern_of(command) + ")\n        case $before in\n";
+  for (const Option& option : command.options) {
+    if (option.is_argument() || (option.choices.empty() && !is_file(option))) continue;
+    text += "          " + joined(flags_of(option), "|") + ") words='" + joined(option.choices, " ") + "' ;;\n";
+  }
+  text += "          *) case $word in -*) words='" + bash_words_of(command) + "' ;; *) words='" +
+          joined(argument_choices(command), " ") + "' ;; esac ;;\n";
+  return text + "        esac ;;\n";
 }
 
 std::string zsh_row(const Option& option) {
@@ -76,8 +107,16 @@ std::string zsh_row(const Option& option) {
   return row + rest + " \\\n";
 }
 
-std::string fish_row(const Command& command, const Option& option) {
-  std::string row = "complete -c facemap -n '__fish_seen_subcommand_from " + command.name + "'";
+/// When a command's flags are offered; those of render for a model's name too.
+std::string fish_condition(const Command& command, const std::vector<Command>& commands) {
+  if (command.name != "render") return "__fish_seen_subcommand_from " + command.name;
+  std::string others;
+  for (const Command& other : commands) others += other.name == "render" ? "" : " " + other.name;
+  return "not __fish_seen_subcommand_from" + others;
+}
+
+std::string fish_row(const std::string& condition, const Option& option) {
+  std::string row = "complete -c facemap -n '" + condition + "'";
   for (const std::string& flag : flags_of(option)) {
     row += flag.starts_with("--") ? " -l " + flag.substr(2) : " -s " + flag.substr(1);
   }
@@ -106,15 +145,7 @@ std::string bash_completion(const std::vector<Command>& commands) {
       "  else\n"
       "    case ${COMP_WORDS[1]} in\n"
       "      --completion) words='bash zsh fish' ;;\n";
-  for (const Command& command : commands) {
-    text += "      " + command.name + ")\n        case $before in\n";
-    for (const Option& option : command.options) {
-      if (option.choices.empty() || option.is_argument()) continue;
-      text += "          " + joined(flags_of(option), "|") + ") words='" + joined(option.choices, " ") + "' ;;\n";
-    }
-    text += "          *) case $word in -*) words='" + bash_words_of(command) + "' ;; esac ;;\n";
-    text += "        esac ;;\n";
-  }
+  for (const Command* command : render_last(commands)) text += bash_case(*command);
   text +=
       "    esac\n"
       "  fi\n"
@@ -136,18 +167,21 @@ std::string zsh_completion(const std::vector<Command>& commands) {
       "  )\n"
       "  if (( CURRENT == 2 )); then\n"
       "    _describe command commands\n"
+      "    _files\n"
       "    return\n"
       "  fi\n"
       "  local command=$words[2]\n"
       "  shift words\n"
       "  (( CURRENT-- ))\n"
       "  case $command in\n";
-  for (const Command& command : commands) {
-    text += "    " + command.name + ")\n      _arguments \\\n";
-    for (const Option& option : command.options) {
+  for (const Command* command : render_last(commands)) {
+    text += "    " + pattern_of(*command) + ")\n      _arguments \\\n";
+    for (const Option& option : command->options) {
       if (!option.is_argument()) text += zsh_row(option);
     }
-    text += "        '--help[what the command does]' '*:file:_files' ;;\n";
+    const std::string choices = joined(argument_choices(*command), " ");
+    text += "        '--help[what the command does]' ";
+    text += choices.empty() ? "'*:file:_files' ;;\n" : "'1:name:(" + choices + ")' ;;\n";
   }
   return text + "  esac\n}\n_facemap \"$@\"\n";
 }
@@ -155,12 +189,14 @@ std::string zsh_completion(const std::vector<Command>& commands) {
 std::string fish_completion(const std::vector<Command>& commands) {
   std::string text = "# fish completion of facemap: facemap --completion fish\n";
   for (const Command& command : commands) {
-    text +=
-        "complete -c facemap -n __fish_use_subcommand -f -a " + command.name + " -d " + quoted(command.summary) + "\n";
+    text += "complete -c facemap -n __fish_use_subcommand -a " + command.name + " -d " + quoted(command.summary) + "\n";
   }
   for (const Command& command : commands) {
+    const std::string condition = fish_condition(command, commands);
+    const std::string choices = joined(argument_choices(command), " ");
+    if (!choices.empty()) text += "complete -c facemap -n '" + condition + "' -f -a " + quoted(choices) + "\n";
     for (const Option& option : command.options) {
-      if (!option.is_argument()) text += fish_row(command, option);
+      if (!option.is_argument()) text += fish_row(condition, option);
     }
   }
   return text;

@@ -99,6 +99,7 @@ std::vector<View> complete_views(const BoundingBall& ball, const Vector& up, con
   std::vector<View> views;
   for (WantedView view : wanted) {
     view.size = size;
+    check_height(view.lens);
     views.push_back(complete_view(ball, up, view));
     check_sight(views.back());
   }

@@ -128,13 +128,17 @@ std::vector<Option> lens_options(WantedLens& lens) {
   };
 }
 
+void check_height(const WantedLens& lens) {
+  refuse_unless(lens.is(LensName::Orthographic), lens.height.has_value(), "--ortho-height", "--lens orthographic",
+                lens);
+}
+
 void check(const WantedLens& lens) {
   const bool is_opencv = lens.is(LensName::OpenCV) || lens.is(LensName::OpenCVFisheye);
   refuse_unless(lens.is(LensName::Cube), lens.layout.has_value(), "--cube-layout", "--lens cube", lens);
   refuse_unless(is_opencv, lens.matrix.has_value(), "--camera-matrix", "--lens opencv and opencv-fisheye", lens);
   refuse_unless(is_opencv, lens.distortion.has_value(), "--distortion", "--lens opencv and opencv-fisheye", lens);
-  refuse_unless(lens.is(LensName::Orthographic), lens.height.has_value(), "--ortho-height", "--lens orthographic",
-                lens);
+  if (lens.name) check_height(lens);  // else a camera of the file may name it
   if (is_opencv && !lens.matrix) throw UsageError(flag_of(lens) + " needs --camera-matrix fx,fy,cx,cy");
 }
 

@@ -44,6 +44,9 @@ std::vector<Option> lens_options(WantedLens& lens);
 /// Throws UsageError, naming both, for flags that do not go together, and for what a lens must be told.
 void check(const WantedLens& lens);
 
+/// The same of --ortho-height, once it is known which lens the camera has.
+void check_height(const WantedLens& lens);
+
 /// The picture's size if none is given.
 Size made_up_size(const WantedLens& lens);
 

@@ -58,6 +58,7 @@ std::string man_page(const std::vector<Command>& commands) {
                      ".SH NAME\n"
                      "facemap \\- draw 3D models with exact visibility and shadows\n"
                      ".SH SYNOPSIS\n";
+  page += bold("facemap") + " \\fIMODEL\\fR [\\fIoptions of facemap render\\fR]\n.br\n";
   for (const Command& command : commands) page += bold("facemap " + command.name) + " [\\fIoptions\\fR]\n.br\n";
   page +=
       ".SH DESCRIPTION\n"

@@ -92,19 +92,37 @@ void set_options(const Command& command, const Words& words) {
   }
 }
 
+/// The words, with -oFILE for -o=FILE, which a parser would take as a file named =FILE.
+std::vector<std::string> without_equals(const Command& command, int argc, const char* const* argv) {
+  std::vector<std::string> words(argv, argv + argc);
+  for (std::string& word : words) {
+    if (word == "--") break;
+    const bool is_short = word.size() > 3 && word[0] == '-' && word[1] != '-' && word[2] == '=';
+    if (!is_short) continue;
+    for (const Option& option : command.options) {
+      if (!option.value.empty() && option.flags.starts_with(word.substr(0, 2) + ",")) word.erase(2, 1);
+    }
+  }
+  return words;
+}
+
 void parse_options(const Command& command, int argc, const char* const* argv) {
   Words words;
   CLI::App parser;
   parser.set_help_flag();
   parser.allow_extras();
   for (const Option& option : command.options) add_to_parser(option, parser, words);
+  const std::vector<std::string> separated = without_equals(command, argc, argv);
+  std::vector<const char*> pointers;
+  for (const std::string& word : separated) pointers.push_back(word.c_str());
   try {
-    parser.parse(argc, argv);
+    parser.parse(argc, pointers.data());
   } catch (const CLI::ParseError& error) {
     throw UsageError(error.what());
   }
-  if (const std::vector<std::string> unknown = parser.remaining(); !unknown.empty())
-    refuse_word(command, unknown.front());
+  for (const std::string& word : parser.remaining()) {
+    if (word != "--") refuse_word(command, word);
+  }
   set_options(command, words);
 }
 

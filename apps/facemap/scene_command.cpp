@@ -91,7 +91,8 @@ Command scene_command() {
       {"SCENE", "", "", "one of " + name_list(),
        [arguments](const std::string& text) {
          arguments->name = generator_names()[parse_choice(text, generator_names())];
-       }},
+       },
+       false, generator_names()},
       {"-o,--output", "FILE", "", "the OBJ file; - writes it to standard output",
        into(arguments->output, [](const std::string& text) { return fs::path(text); })},
       {"--detail", "N", "1",

@@ -45,6 +45,12 @@ TEST_F(Program, ErrorsOfTheCommandLineMayBeJsonToo) {
   EXPECT_EQ(run("render --log-json").err.substr(0, 30), "{\"event\": \"error\", \"message\": ");
 }
 
+TEST_F(Program, WordsAreTakenAsElsewhere) {
+  EXPECT_EQ(run("render cube.obj -o=a.png --size 8x8 -q").exit_code, 0);
+  EXPECT_EQ(run("render -q --size 8x8 -o b.png -- cube.obj").exit_code, 0);
+  EXPECT_EQ(files(), "a.png b.png ");
+}
+
 TEST_F(Program, APipeInThePicturesPlaceIsNotRead) {
   ASSERT_EQ(run_shell("mkfifo cube.png").exit_code, 0);
   expect_error(run("cube.obj"), 1,

@@ -23,6 +23,10 @@ TEST_F(Completion, BashOffersCommandsFlagsAndValues) {
   EXPECT_EQ(offers("facemap render --projection p", 3), "plane\n");
   EXPECT_EQ(offers("facemap render cu", 2), "\n");  // a file's name: bash's own completion takes over
   EXPECT_EQ(offers("facemap --completion z", 2), "zsh\n");
+  EXPECT_EQ(offers("facemap m.obj --sam", 2), "--samples\n");
+  EXPECT_EQ(offers("facemap m.obj --projection p", 3), "plane\n");
+  EXPECT_EQ(offers("facemap scene che", 2), "chessboard\n");
+  EXPECT_EQ(offers("facemap scene -o che", 3), "\n");
 }
 
 TEST_F(Completion, EveryFlagIsInEachScriptAndInTheManual) {
@@ -44,6 +48,14 @@ TEST_F(Completion, EveryFlagIsInEachScriptAndInTheManual) {
     EXPECT_NE(fish.find("-l " + flag.substr(2)), std::string::npos) << flag;
   }
   EXPECT_GT(flags, 15);
+}
+
+TEST_F(Completion, AModelMayStandForTheCommand) {
+  EXPECT_NE(run("--completion zsh").out.find("    _files\n"), std::string::npos);
+  EXPECT_NE(run("--completion zsh").out.find("    *)\n"), std::string::npos);
+  EXPECT_EQ(run("--completion fish").out.find("__fish_use_subcommand -f"), std::string::npos);
+  EXPECT_NE(run("--completion fish").out.find("'not __fish_seen_subcommand_from info"), std::string::npos);
+  EXPECT_NE(run("--man").out.find("\\fIMODEL\\fR [\\fIoptions of facemap render"), std::string::npos);
 }
 
 TEST_F(Completion, RefusesOtherShells) {

@@ -27,6 +27,16 @@ TEST_F(FlagsBeforeScene, OfTheLens) {
   EXPECT_EQ(picture("matrix.toml --lens plane"), picture("cube.obj --size 40x20 --lens plane"));
 }
 
+TEST_F(FlagsBeforeScene, OfTheHeightOfAnOrthographicCamera) {
+  const std::string camera = "position = [0, 0, 5]\nlook_at = [0, 0, 0]\n";
+  write_file("s.toml", "[[model]]\npath = \"cube.obj\"\n[[camera]]\n" + camera + "[[camera]]\n" + camera +
+                           "lens = \"orthographic\"\northo_height = 9\n");
+  EXPECT_EQ(picture("s.toml --size 20x20 --camera-name 1 --ortho-height 3"),
+            picture("cube.obj --size 20x20 --camera 0,0,5 --look-at 0,0,0 --lens orthographic --ortho-height 3"));
+  expect_error(run("render s.toml --camera-name 0 --ortho-height 3 -o q.png"), 2,
+               "--ortho-height is for --lens orthographic, not for --lens surface");
+}
+
 TEST_F(FlagsBeforeScene, OfTheCamerasPlace) {
   const std::string pose = " --opencv-pose 1,0,0,0,0,-1,0,0,0,0,-1,6";
   ASSERT_EQ(run("render cube.obj -o y.png --size 20x20 --save-scene y.toml --up z -q").exit_code, 0);
