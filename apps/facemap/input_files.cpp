@@ -10,16 +10,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a run must leave as it is.
+/// What a run must leave as it is: files by the names that the file system has for them.
 class InputFiles {
  public:
-  InputFiles(const Input& input, const Scene& scene) {
+  explicit InputFiles(const std::vector<TextureImage>& images) {
+    for (const TextureImage& image : images) {
+      if (!image.file.empty()) names_.insert(settled_name(image.file));
+    }
+  }
+
+  InputFiles(const Input& input, const Scene& scene) : InputFiles(scene.images()) {
     for (const SceneModel& model : input.scene.models) {
       if (!is_standard_input(model.path)) names_.insert(settled_name(model.path));
       has_buffers_ = has_buffers_ || model.path.extension() == ".gltf";
-    }
-    for (const TextureImage& image : scene.images()) {
-      if (!image.file.empty()) names_.insert(settled_name(image.file));
     }
   }
 
@@ -36,6 +39,10 @@ class InputFiles {
 };
 
 }  // namespace
+
+void check_images_stay(const fs::path& output, const std::vector<TextureImage>& images) {
+  InputFiles(images).check(output);
+}
 
 void check_inputs_stay(const std::vector<FrameFiles>& outputs, const fs::path& save_scene, const Input& input,
                        const Scene& scene) {

@@ -13,4 +13,7 @@ namespace facemap::program {
 void check_inputs_stay(const std::vector<FrameFiles>& outputs, const std::filesystem::path& save_scene,
                        const Input& input, const Scene& scene);
 
+/// The same for the textures of one model.
+void check_images_stay(const std::filesystem::path& output, const std::vector<TextureImage>& images);
+
 }  // namespace facemap::program

@@ -10,6 +10,7 @@
 #include "exit_codes.h"
 #include "file_format.h"
 #include "hit_picture.h"
+#include "input_files.h"
 #include "model.h"
 #include "output.h"
 #include "pending_files.h"
@@ -47,6 +48,7 @@ void draw_map(const MapArguments& arguments) {
   const FileFormat format = format_of(arguments.output);
   check_picture_output(arguments.output, arguments.model);
   const Scene scene = load_model(arguments.model, arguments.quiet, arguments.threads);
+  check_images_stay(arguments.output, scene.images());
 
   Camera::Options options;
   options.field_angle = arguments.field_angle;

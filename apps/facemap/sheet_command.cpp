@@ -11,6 +11,7 @@
 #include "contact_sheet.h"
 #include "exit_codes.h"
 #include "file_format.h"
+#include "input_files.h"
 #include "output.h"
 #include "pending_files.h"
 #include "progress_line.h"
@@ -72,6 +73,7 @@ Image picture_of(const fs::path& path, const SheetArguments& arguments) {
   ModelLimits limits;
   limits.threads = arguments.threads;
   Model model = load_model(path, limits);
+  check_images_stay(arguments.output, model.images);
   const auto faces = static_cast<FaceId>(model.mesh.face_count());
   const Studio studio =
       make_studio(model.mesh, model.up.value_or(Vector(0, 1, 0)), arguments.size.width, arguments.size.height);

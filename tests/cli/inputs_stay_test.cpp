@@ -37,6 +37,14 @@ TEST_F(InputsStay, TexturesAndLibrariesAreNotReplaced) {
   expect_stays("leaf.obj -o link.png", "link.png", needed);
 }
 
+TEST_F(InputsStay, MapsAndSheetsReplaceNoTexturesEither) {
+  const std::string before = read_file("leaf.png");
+  const std::string message = "leaf.png: the output would replace a file that the model needs";
+  expect_error(run("map leaf.obj --at 0,0,5 --size 8x8 -q -o leaf.png"), 2, message);
+  expect_error(run("sheet leaf.obj --size 8x8 -q -o leaf.png"), 2, message);
+  EXPECT_EQ(read_file("leaf.png"), before);
+}
+
 TEST_F(InputsStay, ModelsOfSceneFilesAreNotReplaced) {
   expect_stays("scene.toml -o new.png --save-scene part.stl", "part.stl", "a model's file");
   expect_stays("scene.toml -o part.stl --format png", "part.stl", "a model's file");
