@@ -17,6 +17,7 @@
 
 #include "simd/target.h"
 #include "support/cut_out_scenes.h"
+#include "support/environment.h"
 #include "support/holes.h"
 #include "support/lenses.h"
 #include "support/oracle.h"
@@ -29,11 +30,6 @@ using namespace facemap;
 using test_scenes::TestScene;
 
 constexpr int kLargestFaceCount = 40;
-
-std::uint64_t number_from_environment(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::strtoull(text, nullptr, 0) : otherwise;
-}
 
 // The library's depth is sharp to 2^-30, the referee's to 2^-48; then it is rounded once.
 bool is_same_depth(float depth, double truth) {

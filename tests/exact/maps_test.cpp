@@ -15,6 +15,7 @@
 #include <map>
 #include <string>
 
+#include "support/environment.h"
 #include "support/oracle.h"
 #include "support/queries.h"
 #include "support/scenes.h"
@@ -26,11 +27,6 @@ using oracle::Oracle;
 using test_queries::CameraQuery;
 using test_queries::LightQuery;
 using test_scenes::TestScene;
-
-std::uint64_t number_from_environment(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 0);
-}
 
 struct Tally {
   std::uint64_t queries = 0;

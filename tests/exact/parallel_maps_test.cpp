@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "support/environment.h"
 #include "support/parallel_oracle.h"
 #include "support/parallel_queries.h"
 #include "support/queries.h"
@@ -22,11 +23,6 @@ using oracle::Oracle;
 using oracle::ParallelView;
 using test_queries::text;
 using test_scenes::TestScene;
-
-std::uint64_t number_from_environment(const char* name, std::uint64_t otherwise) {
-  const char* number = std::getenv(name);
-  return number != nullptr ? std::strtoull(number, nullptr, 0) : otherwise;
-}
 
 oracle::Hit as_oracle(const Camera::Hit& hit) { return {hit.face, hit.strictly_inside, hit.tied, hit.side}; }
 

@@ -17,6 +17,7 @@
 #include "render/parallel_eye.h"
 #include "scene/surface_coordinates.h"
 #include "simd/target.h"
+#include "support/environment.h"
 #include "support/lenses.h"
 #include "support/oracle.h"
 #include "support/parallel_oracle.h"
@@ -30,11 +31,6 @@ using namespace facemap;
 using test_scenes::TestScene;
 
 constexpr int kLargestFaceCount = 60;
-
-std::uint64_t number_from_environment(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::strtoull(text, nullptr, 0) : otherwise;
-}
 
 struct Tally {
   std::uint64_t pictures = 0, rays = 0, hits = 0, shadow_questions = 0, unreached = 0, differences = 0;
