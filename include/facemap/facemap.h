@@ -33,3 +33,5 @@
 #include <facemap/texture.h>
 #include <facemap/turntable.h>
 #include <facemap/vector.h>
+#include <facemap/viewpoint.h>
+#include <facemap/visibility.h>

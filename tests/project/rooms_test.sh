@@ -1,5 +1,5 @@
 #!/bin/sh
-# Includes point one way, as in docs/architecture.md: image, scene, map, picture, material, render; math, simd and parallel serve them
+# Includes point one way, as in docs/architecture.md: image, scene, map, picture, visibility, material, render; math, simd and parallel serve them
 # and know none of them. Programs include the public headers alone.
 set -eu
 failed=0
@@ -13,11 +13,12 @@ forbid() {
   fi
 }
 
-forbid 'src/math src/simd src/parallel' '(image|scene|map|picture|material|render)'
-forbid 'src/image' '(scene|map|picture|material|render)'
-forbid 'src/scene' '(map|picture|material|render)'
-forbid 'src/map' '(picture|material|render)'
-forbid 'src/picture' '(material|render)'
-forbid 'src/material' '(map|picture|render)'
-forbid 'apps examples bench/facemap_bench*' '(math|simd|parallel|image|scene|map|picture|material|render)'
+forbid 'src/math src/simd src/parallel' '(image|scene|map|picture|visibility|material|render)'
+forbid 'src/image' '(scene|map|picture|visibility|material|render)'
+forbid 'src/scene' '(map|picture|visibility|material|render)'
+forbid 'src/map' '(picture|visibility|material|render)'
+forbid 'src/picture' '(visibility|material|render)'
+forbid 'src/visibility' '(material|render)'
+forbid 'src/material' '(map|picture|visibility|render)'
+forbid 'apps examples bench/facemap_bench*' '(math|simd|parallel|image|scene|map|picture|visibility|material|render)'
 exit $failed
