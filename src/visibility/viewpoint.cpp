@@ -1,26 +1,15 @@
 #include <facemap/error.h>
 #include <facemap/viewpoint.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <mutex>
-#include <optional>
 
-#include "map/face_planes.h"
-#include "map/map_faces.h"
-#include "math/exact_sign.h"
-#include "parallel/executor.h"
-#include "picture/shadows.h"
 #include "simd/floating_point_mode.h"
-#include "visibility/target_points.h"
-#include "visibility/whole_view.h"
+#include "visibility/viewpoint_parts.h"
 
 namespace facemap {
 namespace {
 
-constexpr std::size_t kFewestRays = 256;      // a task
-constexpr std::size_t kMostPoints = 1 << 22;  // at once
+constexpr std::size_t kFewestRays = 256;  // a task
 
 Viewpoint::Options checked(const Vector& origin, const Viewpoint::Options& options) {
   if (!std::isfinite(origin.x) || !std::isfinite(origin.y) || !std::isfinite(origin.z)) {
@@ -30,33 +19,23 @@ Viewpoint::Options checked(const Vector& origin, const Viewpoint::Options& optio
   return options;
 }
 
+}  // namespace
+
 void check_size(std::size_t answers, std::size_t questions) {
   if (answers != questions) throw Error("as many answers as questions are needed");
 }
 
-}  // namespace
+Viewpoint::Kept::Kept(const Scene& of, const Vector& at, const Options& wanted)
+    : scene(of),
+      origin(at),
+      options(checked(at, wanted)),
+      executor(options.threads),
+      faces(map_faces(scene, options.cut_outs, options.max_texture_pixels)) {}
 
-struct Viewpoint::Kept {
-  Kept(const Scene& of, const Vector& at, const Options& wanted)
-      : scene(of),
-        origin(at),
-        options(checked(at, wanted)),
-        executor(options.threads),
-        faces(map_faces(scene, options.cut_outs, options.max_texture_pixels)) {}
-
-  const WholeView& whole_view() {
-    std::call_once(view_once, [&] { view.emplace(scene, origin, faces); });
-    return *view;
-  }
-
-  const Scene& scene;
-  Vector origin;
-  Options options;
-  Executor executor;
-  MapFaces faces;
-  std::once_flag view_once;
-  std::optional<WholeView> view;
-};
+const WholeView& Viewpoint::Kept::whole_view() {
+  std::call_once(view_once, [&] { view.emplace(scene, origin, faces); });
+  return *view;
+}
 
 Viewpoint::Viewpoint(const Scene& scene, const Vector& origin, const Options& options)
     : kept_(std::make_unique<Kept>(scene, origin, options)) {}
@@ -66,26 +45,6 @@ Viewpoint& Viewpoint::operator=(Viewpoint&&) noexcept = default;
 
 const Scene& Viewpoint::scene() const noexcept { return kept_->scene; }
 const Vector& Viewpoint::origin() const noexcept { return kept_->origin; }
-void Viewpoint::prepare() const {}
-
-void Viewpoint::visible(const Targets& targets, std::span<std::uint8_t> visible, const Progress& progress) const {
-  const FloatingPointMode mode;
-  check_size(visible.size(), targets.points.size());
-  for (std::size_t first = 0; first < visible.size(); first += kMostPoints) {
-    const std::size_t last = std::min(first + kMostPoints, visible.size());
-    const AskedPoints points = asked_points(kept_->scene, targets, first, last, kept_->executor);
-    std::fill(visible.begin() + first, visible.begin() + last, std::uint8_t{1});
-    ShadowScratch scratch;
-    clear_blocked(
-        kept_->faces.solid(), kept_->origin, points, {visible.data() + first, visible.data() + first, 1, 0}, nullptr,
-        [&](std::size_t point, std::uint32_t face, int side) {
-          return blocks(triangle_of(kept_->scene, face), side, kept_->origin,
-                        GivenPoint{targets.points[first + point]});
-        },
-        scratch);
-    if (progress && !progress(static_cast<double>(last) / static_cast<double>(visible.size()))) throw Error("stopped");
-  }
-}
 
 void Viewpoint::blocked_by(const Targets&, std::span<FaceId>, const Progress&) const {}
 

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <facemap/viewpoint.h>
+
+#include <cstddef>
+#include <mutex>
+#include <optional>
+
+#include "map/map_faces.h"
+#include "parallel/executor.h"
+#include "visibility/whole_view.h"
+
+namespace facemap {
+
+/// What a viewpoint keeps from question to question. Its parts are made when they are first needed.
+struct Viewpoint::Kept {
+  Kept(const Scene& scene, const Vector& origin, const Options& options);
+
+  const WholeView& whole_view();
+
+  const Scene& scene;
+  Vector origin;
+  Options options;
+  Executor executor;
+  MapFaces faces;
+  std::once_flag view_once;
+  std::optional<WholeView> view;
+};
+
+/// Throws Error unless there are as many answers as questions.
+void check_size(std::size_t answers, std::size_t questions);
+
+}  // namespace facemap
