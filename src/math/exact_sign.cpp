@@ -46,10 +46,21 @@ int depth_sign(const Triangle& face1, const Triangle& face2, const Vector& O, co
   const int in_double = plain::depth_difference(face1, face2, O, d);
   count_stage(in_double != kUnknownSign, counters);
   if (in_double != kUnknownSign) return in_double;
-  ExponentRange lengths = lengths_of(face1, O);
-  for (const Vector& corner : face2) lengths.include(corner);
-  return in_integers(lengths, ExponentRange::of(d),
-                     [&](const auto& numbers) { return depth_difference(numbers, face1, face2, O, d).sign(); });
+  return in_integers(lengths_of(face1, face2, O), ExponentRange::of(d), [&](const auto& numbers) {
+    return depth_difference(numbers, face1, face2, O, numbers.direction(d)).sign();
+  });
+}
+
+int depth_sign_towards(const Triangle& face1, const Triangle& face2, const Vector& O, const Vector& P,
+                       Counters* counters) {
+  const int in_double = plain::depth_difference_towards(face1, face2, O, P);
+  count_stage(in_double != kUnknownSign, counters);
+  if (in_double != kUnknownSign) return in_double;
+  ExponentRange lengths = lengths_of(face1, face2, O);
+  lengths.include(P);
+  return in_integers(lengths, ExponentRange(), [&](const auto& numbers) {
+    return depth_difference(numbers, face1, face2, O, numbers.difference(P, O)).sign();
+  });
 }
 
 // ---- quotients ------------------------------------------------------------------------------------------
@@ -152,6 +163,15 @@ Covering covers(const Triangle& face, int s, const Vector& O, const Vector& d, C
 int compare_depth(const Triangle& face1, int s1, const Triangle& face2, int s2, const Vector& O, const Vector& d,
                   Counters* counters) {
   return s1 * s2 * depth_sign(face1, face2, O, d, counters);
+}
+
+int compare_depth_towards(const Triangle& face1, int s1, const Triangle& face2, int s2, const Vector& O,
+                          const Vector& P, Counters* counters) {
+  return s1 * s2 * depth_sign_towards(face1, face2, O, P, counters);
+}
+
+Tracked segment_parameter(const Triangle& face, const Vector& O, const Vector& P) {
+  return plain::segment_parameter(face, O, P);
 }
 
 bool blocks(const Triangle& G, int s_G, const Vector& L, const TruePoint& point, Counters* counters) {

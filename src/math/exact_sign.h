@@ -37,6 +37,13 @@ Covering covers(const Triangle& face, int s, const Vector& O, const Vector& d, C
 int compare_depth(const Triangle& face1, int s1, const Triangle& face2, int s2, const Vector& O, const Vector& d,
                   Counters* counters = nullptr);
 
+/// The same along the segment from O to P, both faces standing strictly between (as blocks() has it).
+int compare_depth_towards(const Triangle& face1, int s1, const Triangle& face2, int s2, const Vector& O,
+                          const Vector& P, Counters* counters = nullptr);
+
+/// Share of the way from O to P at which a face that stands strictly between is met, with its error bound.
+Tracked segment_parameter(const Triangle& face, const Vector& O, const Vector& P);
+
 /// A point that a camera sees: where the ray K + t d meets the plane of `face`, a rational point.
 struct TruePoint {
   Vector K, d;

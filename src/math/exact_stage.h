@@ -11,6 +11,12 @@ namespace facemap {
 
 inline ExponentRange lengths_of(const Triangle& f, const Vector& O) { return ExponentRange::of(f[0], f[1], f[2], O); }
 
+inline ExponentRange lengths_of(const Triangle& f, const Triangle& g, const Vector& O) {
+  ExponentRange range = lengths_of(f, O);
+  for (const Vector& corner : g) range.include(corner);
+  return range;
+}
+
 inline ExponentRange lengths_of(const TruePoint& p, const Vector& L) {
   return ExponentRange::of(p.face[0], p.face[1], p.face[2], p.K, L);
 }

@@ -26,13 +26,12 @@ auto edge(const Numbers& numbers, const Vector& a, const Vector& b, const Vector
   return dot(cross(numbers.difference(a, O), numbers.difference(b, a)), d);
 }
 
-/// t1 - t2 times the positive s1 s2 (n1 . d) (n2 . d), but for that sign.
-template <class Numbers>
+/// t1 - t2 times the positive s1 s2 (n1 . d) (n2 . d), but for that sign; d is a direction or a difference of points.
+template <class Numbers, class T>
 auto depth_difference(const Numbers& numbers, const Triangle& f1, const Triangle& f2, const Vector& O,
-                      const Vector& d) {
+                      const Vec3<T>& d) {
   const auto n1 = normal(numbers, f1), n2 = normal(numbers, f2);
-  const auto direction = numbers.direction(d);
-  return determinant(numbers, f1, n1, O) * dot(n2, direction) - determinant(numbers, f2, n2, O) * dot(n1, direction);
+  return determinant(numbers, f1, n1, O) * dot(n2, d) - determinant(numbers, f2, n2, O) * dot(n1, d);
 }
 
 /// A point P as a rational one: w (P - base) = w (anchor - base) + shift, for any base. The sign of w is known.

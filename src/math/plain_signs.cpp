@@ -26,6 +26,14 @@ Verdict blocks_point(const Triangle& G, int s_G, const Vector& L, const Point& p
   return cone == Verdict::Yes && !(height > height_error) ? Verdict::Unknown : cone;
 }
 
+// delta1 (n2 . d) - delta2 (n1 . d): 36 monomials each, 8 + 7 + 2 roundings for d as it is.
+int depth_sign(const Triangle& face1, const Triangle& face2, const Vector& O, const Vec& d, double roundings) {
+  const double size1 = Edges(face1).size, size2 = Edges(face2).size;
+  const double distances = largest(kNumbers.difference(face1[0], O)) + largest(kNumbers.difference(face2[0], O));
+  const double error = roundings * (size1 * size1) * (size2 * size2) * distances * largest(d);
+  return sign_of(facemap::depth_difference(kNumbers, face1, face2, O, d), error);
+}
+
 }  // namespace
 
 // A component of n: 2 monomials, 4 roundings.
@@ -50,12 +58,13 @@ Verdict covers(const Triangle& face, int s, const Vector& O, const Vector& d) {
   return within_edges(edges, corners, s, direction, error);
 }
 
-// delta1 (n2 . d) - delta2 (n1 . d): 36 monomials each, 8 + 7 + 2 roundings.
 int depth_difference(const Triangle& face1, const Triangle& face2, const Vector& O, const Vector& d) {
-  const double size1 = Edges(face1).size, size2 = Edges(face2).size;
-  const double distances = largest(kNumbers.difference(face1[0], O)) + largest(kNumbers.difference(face2[0], O));
-  const double error = bound(17, 36) * (size1 * size1) * (size2 * size2) * distances * largest(kNumbers.direction(d));
-  return sign_of(facemap::depth_difference(kNumbers, face1, face2, O, d), error);
+  return depth_sign(face1, face2, O, kNumbers.direction(d), bound(17, 36));
+}
+
+// P - O, itself rounded: 18.
+int depth_difference_towards(const Triangle& face1, const Triangle& face2, const Vector& O, const Vector& P) {
+  return depth_sign(face1, face2, O, kNumbers.difference(P, O), bound(18, 36));
 }
 
 Verdict blocks(const Triangle& G, int s_G, const Vector& L, const TruePoint& point) {
@@ -89,6 +98,14 @@ Tracked ray_parameter(const TruePoint& point) {
   const double size = edges.size * edges.size;
   return quotient(Tracked{dot(n, to_face), bound(8, 6) * size * largest(to_face)},
                   Tracked{dot(n, d), bound(7, 6) * size * largest(d)});
+}
+
+// 6 monomials, 8 roundings each.
+Tracked segment_parameter(const Triangle& face, const Vector& O, const Vector& P) {
+  const Edges edges(face);
+  const Vec n = edges.normal(), to_face = kNumbers.difference(face[0], O), d = kNumbers.difference(P, O);
+  const double size = bound(8, 6) * edges.size * edges.size;
+  return quotient(Tracked{dot(n, to_face), size * largest(to_face)}, Tracked{dot(n, d), size * largest(d)});
 }
 
 // Three components, each: the difference's rounding, t's error, the product's rounding and the sum's.

@@ -14,8 +14,9 @@ bool has_area(const Triangle& face);
 int side(const Triangle& face, const Vector& O);
 Verdict covers(const Triangle& face, int s, const Vector& O, const Vector& d);
 
-/// Sign of depth_difference (expressions.h).
+/// Sign of depth_difference (expressions.h), along a direction and from O to a point P.
 int depth_difference(const Triangle& face1, const Triangle& face2, const Vector& O, const Vector& d);
+int depth_difference_towards(const Triangle& face1, const Triangle& face2, const Vector& O, const Vector& P);
 
 Verdict blocks(const Triangle& G, int s_G, const Vector& L, const TruePoint& point);
 Verdict blocks(const Triangle& G, int s_G, const Vector& L, const GivenPoint& point);
@@ -24,6 +25,9 @@ Verdict reaches_beyond(const Triangle& F, const Triangle& G, int s_G);
 
 /// As facemap::ray_parameter, of the same value, with a larger bound of its error.
 Tracked ray_parameter(const TruePoint& point);
+
+/// As facemap::segment_parameter.
+Tracked segment_parameter(const Triangle& face, const Vector& O, const Vector& P);
 
 /// Writes P - L, of the same value as in Tracked, for t = ray_parameter(point); returns a bound of the errors of its
 /// components' sum.

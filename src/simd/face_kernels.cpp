@@ -84,6 +84,12 @@ void cone_verdicts(const FacePlanes* planes, const std::uint32_t* ids, std::size
   for (std::size_t i = 0; i < count; ++i) verdicts[i] = cone_verdict(planes[ids[i]], direction);
 }
 
+void block_verdicts(const FacePlanes* planes, const std::uint32_t* ids, std::size_t count, const ListPoint& point,
+                    Verdict* verdicts) {
+  const Direction D = direction_of(point.D, point.length);
+  for (std::size_t i = 0; i < count; ++i) verdicts[i] = block_verdict(planes[ids[i]], D);
+}
+
 BlockWalk find_blocker(const FacePlanes* planes, const std::uint32_t* ids, std::size_t count, const ListPoint& point,
                        std::uint32_t skip, std::uint32_t* undecided) {
   const Direction D = direction_of(point.D, point.length);
@@ -148,6 +154,11 @@ namespace facemap::simd {
 void cone_verdicts(const FacePlanes* planes, const std::uint32_t* ids, std::size_t count, const float d[3],
                    float length, Verdict* verdicts) {
   FACEMAP_DISPATCH(cone_verdicts)(planes, ids, count, d, length, verdicts);
+}
+
+void block_verdicts(const FacePlanes* planes, const std::uint32_t* ids, std::size_t count, const ListPoint& point,
+                    Verdict* verdicts) {
+  FACEMAP_DISPATCH(block_verdicts)(planes, ids, count, point, verdicts);
 }
 
 BlockWalk find_blocker(const FacePlanes* planes, const std::uint32_t* ids, std::size_t count, const ListPoint& point,

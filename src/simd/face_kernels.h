@@ -41,6 +41,10 @@ struct ListPoint {
   float reach;   ///< faces that begin beyond it cannot block
 };
 
+/// For each of `count` faces ids[i]: does it stand strictly between O and the point, edges included.
+void block_verdicts(const FacePlanes* planes, const std::uint32_t* ids, std::size_t count, const ListPoint& point,
+                    Verdict* verdicts);
+
 /// Walks the faces ids[0..count), front to back, until one surely blocks the point or one begins beyond its reach.
 /// Face `skip` is passed over. Returns how many were looked at; undecided ones are appended to `undecided` (room for
 /// `count`) unless a blocker was found.

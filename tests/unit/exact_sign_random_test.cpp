@@ -109,9 +109,9 @@ bool is_outside(const Triangle& G, const Vector& P, float tolerance) {
 }
 
 // t1 - t2 with t = delta / (n . d)
-int compare_depth(const Triangle& face1, const Triangle& face2, const Vector& O, const Vector& d) {
+int compare_depth(const Triangle& face1, const Triangle& face2, const Vector& O, const Big& direction) {
   const Face f(face1), g(face2);
-  const Big o = big(O), direction = big(d), n = f.normal(), m = g.normal();
+  const Big o = big(O), n = f.normal(), m = g.normal();
   const mpz_class w = inner(n, direction), v = inner(m, direction);
   return sgn(w) * sgn(v) * sgn(mpz_class(inner(n, minus(f.a, o)) * v - inner(m, minus(g.a, o)) * w));
 }
@@ -154,7 +154,26 @@ TEST_P(ExactSignKinds, DepthsEqualGmp) {
     // For a face that is hit the side has the sign of n . d.
     const int s1 = sign_of_slope(f), s2 = sign_of_slope(g);
     if (s1 == 0 || s2 == 0) continue;
-    ASSERT_EQ(facemap::compare_depth(f, s1, g, s2, O, d, &counters), compare_depth(f, g, O, d))
+    ASSERT_EQ(facemap::compare_depth(f, s1, g, s2, O, d, &counters), compare_depth(f, g, O, big(d)))
+        << "round " << i << ", seed " << kSeed;
+  }
+  EXPECT_GT(counters.by_exact, 0u);
+}
+
+TEST_P(ExactSignKinds, DepthsTowardsPointsEqualGmp) {
+  for (int i = 0; i < rounds(); ++i) {
+    const Triangle f = inputs.triangle(), g = inputs.neighbour(f);
+    const Vector O = inputs.near(f), P = inputs.near(f);
+    const Big d = minus(big(P), big(O));
+    const int s1 = sgn(inner(Face(f).normal(), d)), s2 = sgn(inner(Face(g).normal(), d));
+    if (s1 == 0 || s2 == 0) continue;
+    ASSERT_EQ(facemap::compare_depth_towards(f, s1, g, s2, O, P, &counters), compare_depth(f, g, O, d))
+        << "round " << i << ", seed " << kSeed;
+    const facemap::Tracked t = facemap::segment_parameter(f, O, P);
+    if (!std::isfinite(t.error) || std::fabs(t.value) > 0x1p300) continue;
+    mpq_class truth(inner(Face(f).normal(), minus(big(f[0]), big(O))), inner(Face(f).normal(), d));
+    truth.canonicalize();
+    ASSERT_LE(abs(truth - mpq_class(t.value)), mpq_class(t.error * (1 + 0x1p-40)))
         << "round " << i << ", seed " << kSeed;
   }
   EXPECT_GT(counters.by_exact, 0u);

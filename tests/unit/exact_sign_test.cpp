@@ -78,6 +78,28 @@ TEST(ExactSign, DepthsOfCoplanarFacesAreEqual) {
   EXPECT_EQ(compare_depth(farther, -1, kFacing, -1, Vector(0), d), 1);
 }
 
+TEST(ExactSign, DepthsTowardsAPointThatNoFloatDirectionLeadsTo) {
+  // P - O = (2^30 - 2^-30, y, 0) has 60 bits. The planes x + k y = 2^29 are met at the same place if y is 0; for a
+  // hair more the steeper one is met first.
+  const auto wall = [](float k) {
+    return Triangle{Vector(0x1p29f - k * 0x1p28f, 0x1p28f, -0x1p28f), Vector(0x1p29f, 0, 0x1p29f),
+                    Vector(0x1p29f + k * 0x1p28f, -0x1p28f, -0x1p28f)};
+  };
+  const Vector O(0x1p-30f, 0, 0);
+  const Triangle flat = wall(0), steep = wall(1);
+  const int s1 = side(flat, O), s2 = side(steep, O);
+  for (const float y : {0.0f, 0x1p-60f, -0x1p-60f}) {
+    const Vector P(0x1p30f, y, 0);
+    ASSERT_TRUE(blocks(flat, s1, O, GivenPoint{P}));
+    ASSERT_TRUE(blocks(steep, s2, O, GivenPoint{P}));
+    const int expected = y > 0 ? 1 : y < 0 ? -1 : 0;
+    EXPECT_EQ(facemap::compare_depth_towards(flat, s1, steep, s2, O, P), expected) << y;
+    EXPECT_EQ(facemap::compare_depth_towards(steep, s2, flat, s1, O, P), -expected) << y;
+    const facemap::Tracked t = facemap::segment_parameter(flat, O, P);
+    EXPECT_LE(std::fabs(t.value - 0.5), t.error * 2 + 0x1p-53);
+  }
+}
+
 TEST(ExactSign, BlockerMustStandStrictlyBeforeThePoint) {
   const Vector L(0);
   EXPECT_TRUE(blocks(kFacing, -1, L, GivenPoint{Vector(0.2f, 0.2f, -2)}));

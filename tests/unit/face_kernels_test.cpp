@@ -137,6 +137,23 @@ TEST_P(FaceKernels, ConesAreAsDefined) {
   for (const int count : seen) EXPECT_GT(count, 500);
 }
 
+TEST_P(FaceKernels, BlockersAreAsDefined) {
+  Random random(23);
+  int seen[3] = {0, 0, 0};
+  for (int round = 0; round < 2000; ++round) {
+    const std::vector<FacePlanes> table = make_table(random);
+    const ListPoint point = make_point(random);
+    const std::vector<std::uint32_t> ids = make_list(random);
+    std::vector<Verdict> verdicts(ids.size());
+    block_verdicts(table.data(), ids.data(), ids.size(), point, verdicts.data());
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      ASSERT_EQ(verdicts[i], block_verdict(table[ids[i]], point));
+      ++seen[verdicts[i]];
+    }
+  }
+  for (const int count : seen) EXPECT_GT(count, 200);
+}
+
 TEST_P(FaceKernels, WalksAreAsDefined) {
   Random random(22);
   int blocked = 0, undecided_count = 0;
