@@ -7,6 +7,7 @@
 #include "map/face_planes.h"
 #include "map/fill.h"
 #include "map/map_faces.h"
+#include "map/ray_tests.h"
 #include "map/texels.h"
 #include "simd/floating_point_mode.h"
 
@@ -83,14 +84,13 @@ int FaceMap::count_hits(const Vector& direction, Counters* counters) const {
   const FloatingPointMode mode;
   const std::optional<Texel> texel = texel_of(DVector(direction));
   if (!texel) return 0;
-  const auto is_met = [&](std::uint32_t id) {
-    return covers(triangle_of(*scene_, id), planes_->side(id), position(), direction, counters).hit;
-  };
+  const RayTests tests{*scene_, *planes_, position(), direction, counters};
+  const auto never = [](std::uint32_t) { return false; };
   int hits = 0;
-  for (const std::uint32_t id : faces_at(texel->x, texel->y)) hits += is_met(id);
-  for (const std::uint32_t id : cut_outs_at(texel->x, texel->y)) {
-    hits += is_met(id) && cut_outs_->is_there(id, DVector(position()), DVector(direction));
-  }
+  tests.for_each_met(faces_at(texel->x, texel->y), never, [&](std::uint32_t, const Covering&) { ++hits; });
+  tests.for_each_met(cut_outs_at(texel->x, texel->y), never, [&](std::uint32_t id, const Covering&) {
+    hits += cut_outs_->is_there(id, DVector(position()), DVector(direction));
+  });
   return hits;
 }
 

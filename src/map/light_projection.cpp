@@ -67,6 +67,12 @@ Projection plane_for(const Reach& reach, int texels, bool is_square) {
 
 }  // namespace
 
+DVector sight_of_light(const Scene& scene, const Vector& position) {
+  const FloatingPointMode mode;
+  const DVector towards = scene.centre() - DVector(position);
+  return length(towards) > 0 ? towards : DVector(0, 0, -1);
+}
+
 Projection light_projection(const Scene& scene, const SpaceVector& frame, const PointLight::Options& options) {
   const FloatingPointMode mode;
   if (options.texels < 0) throw Error("texels of a light's map must not be negative");

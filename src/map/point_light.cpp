@@ -7,6 +7,7 @@
 #include "map/cover.h"
 #include "map/face_planes.h"
 #include "map/light_projection.h"
+#include "map/list_point.h"
 #include "map/map_faces.h"
 #include "map/texels.h"
 #include "math/dvector.h"
@@ -18,12 +19,6 @@ namespace {
 
 constexpr const char* kNotFinite = "a point to be lit is not finite";
 
-DVector sight_of(const Scene& scene, const Vector& position) {
-  const FloatingPointMode mode;
-  const DVector towards = scene.centre() - DVector(position);
-  return length(towards) > 0 ? towards : DVector(0, 0, -1);
-}
-
 constexpr std::uint32_t kSkipNone = 0xffffffffu;
 
 // Whether what the filter takes for a blocker is one: not if it may be within a tolerance.
@@ -32,16 +27,6 @@ bool is_far_enough(const GivenPoint& point) { return point.tolerance == 0; }
 
 // Faces of a list that are asked before the undecided among them are asked exactly.
 constexpr std::size_t kFewFaces = 64;
-
-bool is_beyond(double length, float cut) { return length > cut * (1.0 + Texels::kDepthMargin); }
-
-simd::ListPoint list_point(const DVector& D, double length) {
-  simd::ListPoint point;
-  for (int i = 0; i < 3; ++i) point.D[i] = static_cast<float>(D[i]);
-  point.length = static_cast<float>(length * (1 + 0x1p-20));
-  point.reach = static_cast<float>(length * (1.0 + Texels::kDepthMargin));
-  return point;
-}
 
 // Unused places are the world's origin.
 void load(std::span<const Vector> points, simd::PointChunk& chunk) {
@@ -75,7 +60,7 @@ PointLight::PointLight(const Scene& scene, const Vector& position, const Options
     : PointLight(map_faces(scene, options.cut_outs, options.max_texture_pixels), position, options) {}
 
 PointLight::PointLight(const MapFaces& faces, const Vector& position, const Options& options)
-    : PointLight(faces, SpaceVector::looking_along(position, sight_of(faces.all(), position)), options) {}
+    : PointLight(faces, SpaceVector::looking_along(position, sight_of_light(faces.all(), position)), options) {}
 
 PointLight::PointLight(const MapFaces& faces, const SpaceVector& frame, const Options& options)
     : FaceMap(faces, frame, light_projection(faces.all(), frame, options), options.builder, options.keep_all) {}

@@ -3,11 +3,11 @@
 #include <facemap/viewpoint.h>
 
 #include <cstddef>
-#include <mutex>
-#include <optional>
 
 #include "map/map_faces.h"
 #include "parallel/executor.h"
+#include "visibility/fitted_view.h"
+#include "visibility/made_once.h"
 #include "visibility/whole_view.h"
 
 namespace facemap {
@@ -16,6 +16,7 @@ namespace facemap {
 struct Viewpoint::Kept {
   Kept(const Scene& scene, const Vector& origin, const Options& options);
 
+  const FittedView& near_view();  ///< keeps what is nearest
   const WholeView& whole_view();
 
   const Scene& scene;
@@ -23,8 +24,8 @@ struct Viewpoint::Kept {
   Options options;
   Executor executor;
   MapFaces faces;
-  std::once_flag view_once;
-  std::optional<WholeView> view;
+  MadeOnce<FittedView> near;
+  MadeOnce<WholeView> whole;
 };
 
 /// Throws Error unless there are as many answers as questions.

@@ -1,32 +1,18 @@
 #include "visibility/whole_view.h"
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
+#include <span>
 
 #include "map/face_planes.h"
 #include "map/map_faces.h"
-#include "map/raster_size.h"
+#include "map/ray_tests.h"
 #include "math/dvector.h"
-#include "math/elementary.h"
 #include "math/exact_sign.h"
-#include "simd/floating_point_mode.h"
 
 namespace facemap {
-namespace {
 
-Camera::Options options_for(const MapFaces& faces) {
-  Camera::Options options;
-  options.projection = ProjectionKind::Surface;
-  options.field_angle = 2 * elementary::kPi;
-  options.width = options.height = texels_for(faces.all().kept_faces().size());
-  options.keep_all = true;
-  return options;
-}
-
-}  // namespace
-
-WholeView::WholeView(const Scene& scene, const Vector& position, const MapFaces& faces)
-    : Camera(faces, SpaceVector::looking_along(position, scene.centre() - DVector(position)), options_for(faces)) {}
+WholeView::WholeView(const Scene&, const Vector& position, const MapFaces& faces) : FittedView(faces, position, true) {}
 
 // A face that is met, with its parameter along the ray.
 class WholeView::Order {
@@ -60,16 +46,17 @@ class WholeView::Order {
 };
 
 void WholeView::meet_all(const Vector& direction, std::vector<Meeting>& meetings) const {
-  meetings.clear();
   const std::optional<Texel> texel = texel_of(DVector(direction));
   if (!texel) return;
   const Order order(*this, direction);
   std::vector<Order::Entry> entries;
+  const RayTests tests{scene(), planes(), position(), direction};
   const auto meet = [&](std::span<const std::uint32_t> ids, const auto& is_there) {
-    for (const std::uint32_t id : ids) {
-      if (!covers(triangle_of(scene(), id), planes().side(id), position(), direction).hit) continue;
-      if (is_there(id)) entries.push_back(order.entry(id));
-    }
+    tests.for_each_met(
+        ids, [](std::uint32_t) { return false; },
+        [&](std::uint32_t id, const Covering&) {
+          if (is_there(id)) entries.push_back(order.entry(id));
+        });
   };
   meet(faces_at(texel->x, texel->y), [](std::uint32_t) { return true; });
   meet(cut_outs_at(texel->x, texel->y),

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <facemap/camera.h>
-
 #include <vector>
+
+#include "visibility/fitted_view.h"
 
 namespace facemap {
 
-/// A camera's map of all directions that keeps the faces behind others too.
-class WholeView : public Camera {
+/// A view that keeps the faces behind others too.
+class WholeView : public FittedView {
  public:
   WholeView(const Scene& scene, const Vector& position, const MapFaces& faces);
 
@@ -16,7 +16,7 @@ class WholeView : public Camera {
     float distance;  ///< world units
   };
 
-  /// Writes all faces that the ray along `direction` meets, in the order of Viewpoint::all_hits.
+  /// Adds all faces that the ray along `direction` meets, in the order of Viewpoint::all_hits.
   void meet_all(const Vector& direction, std::vector<Meeting>& meetings) const;
 
  private:

@@ -271,6 +271,24 @@ int View::count_hits(const Vector& direction) const {
   return is_zero(direction) ? 0 : static_cast<int>(all_meetings(direction).size());
 }
 
+bool View::comes_before(const FacePlanes& f, const FacePlanes& g, const Target& target) const {
+  const int order = compare_distance(f, g, target);
+  if (order != 0) return order < 0;
+  return f.s != g.s ? f.s < g.s : f.face < g.face;
+}
+
+std::vector<FaceId> View::all_hits(const Vector& direction) const {
+  if (is_zero(direction)) return {};
+  const Target target = target_from(direction);
+  std::vector<Meeting> meetings = all_meetings(direction);
+  std::sort(meetings.begin(), meetings.end(), [&](const Meeting& a, const Meeting& b) {
+    return a.index != b.index && comes_before(faces_[a.index], faces_[b.index], target);
+  });
+  std::vector<FaceId> faces;
+  for (const Meeting& meeting : meetings) faces.push_back(faces_[meeting.index].face);
+  return faces;
+}
+
 bool View::meets(FaceId face, const Vector& direction) const {
   if (is_zero(direction)) return false;
   const auto found =
@@ -352,6 +370,20 @@ bool View::is_lit(const Vector& point, const facemap::PointLight::On& on) const 
     return !blocked;
   });
   return !blocked;
+}
+
+FaceId View::first_blocker(const Vector& point, FaceId skip) const {
+  const Target target = target_of(point, kNoFace);
+  const FacePlanes* first = nullptr;
+  for_each_near(target, [&](std::size_t i) {
+    const FacePlanes& G = faces_[i];
+    bool strictly_inside = false;
+    const bool is_blocker = G.face != skip && meets(G, target, &strictly_inside) && is_beyond(G, target) &&
+                            is_there_before(G.face, {point.x, point.y, point.z});
+    if (is_blocker && (first == nullptr || comes_before(G, *first, target))) first = &G;
+    return true;
+  });
+  return first == nullptr ? kNoFace : first->face;
 }
 
 }  // namespace oracle

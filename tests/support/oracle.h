@@ -88,6 +88,13 @@ class View {
   Hit nearest(const Vector& direction) const;
   int count_hits(const Vector& direction) const;
 
+  /// All faces that the ray meets, nearest first; of those at the same distance one turned towards O first, then the
+  /// lower id.
+  std::vector<FaceId> all_hits(const Vector& direction) const;
+
+  /// The first face in that order, `skip` left out, that stands strictly between O and the point; kNoFace: none.
+  FaceId first_blocker(const Vector& point, FaceId skip) const;
+
   /// Whether the ray along `direction` meets this one face.
   bool meets(FaceId face, const Vector& direction) const;
 
@@ -126,6 +133,7 @@ class View {
   int exact_edge_sign(const FacePlanes& planes, int edge, const Target& target) const;
   int compare_distance(const FacePlanes& f, const FacePlanes& g, const Target& target) const;
   std::vector<Meeting> all_meetings(const Vector& direction) const;
+  bool comes_before(const FacePlanes& f, const FacePlanes& g, const Target& target) const;
   bool is_there_before(FaceId face, const Holes::Point& point) const;
   Target target_from(const BigVector& X, const mpz_class& w) const;
   Target target_from(const Vector& direction) const;

@@ -1,0 +1,45 @@
+#include <algorithm>
+#include <numeric>
+
+#include "simd/floating_point_mode.h"
+#include "visibility/pieces.h"
+#include "visibility/viewpoint_parts.h"
+
+namespace facemap {
+namespace {
+
+constexpr std::size_t kPiece = 1024;  // rays
+
+}  // namespace
+
+// Each piece's hits are collected apart, then joined.
+AllHits Viewpoint::all_hits(std::span<const Vector> directions, const Progress& progress) const {
+  const FloatingPointMode mode;
+  AllHits hits;
+  if (directions.empty()) return hits;
+  const WholeView& view = kept_->whole_view();
+  hits.begins.resize(directions.size() + 1);
+  std::vector<std::vector<WholeView::Meeting>> pieces((directions.size() + kPiece - 1) / kPiece);
+  for_pieces(kept_->executor, directions.size(), kPiece, progress,
+             [&](std::size_t first, std::size_t last, std::size_t piece) {
+               for (std::size_t i = first; i < last; ++i) {
+                 const std::size_t before = pieces[piece].size();
+                 view.meet_all(directions[i], pieces[piece]);
+                 hits.begins[i + 1] = pieces[piece].size() - before;
+               }
+             });
+  std::partial_sum(hits.begins.begin(), hits.begins.end(), hits.begins.begin());
+  hits.faces.resize(hits.begins.back());
+  hits.distances.resize(hits.begins.back());
+  kept_->executor.for_each(pieces.size(), [&](std::size_t piece, int) {
+    std::size_t to = hits.begins[piece * kPiece];
+    for (const WholeView::Meeting& meeting : pieces[piece]) {
+      hits.faces[to] = meeting.face;
+      hits.distances[to++] = meeting.distance;
+    }
+    std::vector<WholeView::Meeting>().swap(pieces[piece]);
+  });
+  return hits;
+}
+
+}  // namespace facemap

@@ -1,0 +1,29 @@
+#include "simd/floating_point_mode.h"
+#include "visibility/pieces.h"
+#include "visibility/viewpoint_parts.h"
+
+namespace facemap {
+namespace {
+
+constexpr std::size_t kPiece = 1024;  // rays
+
+}  // namespace
+
+void Viewpoint::nearest(std::span<const Vector> directions, std::span<FaceId> faces, std::span<float> distances,
+                        const Progress& progress) const {
+  const FloatingPointMode mode;
+  check_size(faces.size(), directions.size());
+  check_size(distances.size(), directions.size());
+  if (directions.empty()) return;
+  const FittedView& view = kept_->near_view();
+  for_pieces(kept_->executor, directions.size(), kPiece, progress,
+             [&](std::size_t first, std::size_t last, std::size_t) {
+               for (std::size_t i = first; i < last; ++i) {
+                 const Camera::Hit hit = view.nearest(directions[i]);
+                 faces[i] = hit.face;
+                 distances[i] = hit.depth;
+               }
+             });
+}
+
+}  // namespace facemap
