@@ -11,10 +11,12 @@
 #endif
 
 #include <algorithm>
+#include <atomic>
 #include <mutex>
 #include <thread>
 
 #if defined(__linux__)
+#include <pthread.h>
 #include <sched.h>
 #endif
 
@@ -29,6 +31,15 @@ int available_threads() {
   if (::sched_getaffinity(0, sizeof processors, &processors) == 0) return std::max(1, CPU_COUNT(&processors));
 #endif
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+// fork() copies none of the threads that wait for work: a child of a process that had some does its tasks by itself.
+std::atomic<bool> has_lost_threads = false;
+
+void notice_forks() {
+#if defined(__linux__)
+  [[maybe_unused]] static const int failed = ::pthread_atfork(nullptr, nullptr, [] { has_lost_threads = true; });
+#endif
 }
 
 #if FACEMAP_HAS_TBB
@@ -87,14 +98,19 @@ class Executor::Pool : public ThreadPool {
 #endif
 
 Executor::Executor(int threads) : threads_(threads > 0 ? threads : available_threads()) {
-  if (threads_ > 1) pool_ = std::make_unique<Pool>(threads_);
+  if (threads_ == 1) return;
+  notice_forks();
+  if (!has_lost_threads) pool_ = std::make_unique<Pool>(threads_);
 }
 
-Executor::~Executor() = default;
+Executor::~Executor() {
+  if (has_lost_threads) static_cast<void>(pool_.release());  // it would wait for its threads
+}
 
 void Executor::for_each(std::size_t count, const Task& task) const {
   if (count == 0) return;
-  if (pool_ != nullptr) return pool_->for_each(count, task);  // one task, too: its worker may not be 0
+  if (pool_ != nullptr && !has_lost_threads)
+    return pool_->for_each(count, task);  // one task, too: its worker may not be 0
   const FloatingPointMode mode;
   for (std::size_t i = 0; i < count; ++i) task(i, 0);
 }

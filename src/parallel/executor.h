@@ -9,7 +9,8 @@ namespace facemap {
 /// Runs numbered tasks on several threads: the one place of the library that starts any.
 ///
 /// Which thread runs which task, and when, is open; tasks write to places of their own, so that results do not
-/// depend on it. Each task runs in the default floating-point mode. Tasks may call for_each themselves.
+/// depend on it. Each task runs in the default floating-point mode. Tasks may call for_each themselves. In a process
+/// that was forked from one with an Executor of several threads, the calling thread runs all tasks.
 class Executor {
  public:
   /// `threads` in all, the calling one included; 0: as many as the process may run at once.

@@ -1,0 +1,101 @@
+"""Lights."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Sequence, Union
+
+from . import _checks, _facemap
+
+Color = Union[Sequence[float], str]
+
+
+@dataclass
+class Light:
+    """A light with hard, exact shadows: a point light unless `kind` says otherwise.
+
+    Radiance = color * intensity * cos of the angle of incidence [/ distance^2] [* the spot's fade] [* the range's].
+
+    Parameters
+    ----------
+    position : three floats
+        World units. A directional light has none.
+    color : three floats or str
+        Linear RGB, 0 or more; or sRGB as "#rrggbb".
+    intensity : float
+        Multiplies the color; 0 or more.
+    kind : "point", "spot" or "directional"
+        "point" shines in all directions, "spot" within a cone about `direction`, "directional" everywhere along it.
+    direction : three floats
+        The way the light goes; of any length but 0.
+    inner_angle, outer_angle : float
+        Degrees from the direction, half of the cone's angle: full intensity within the inner one, nothing beyond the
+        outer one.
+    falloff : bool
+        Whether it fades with the squared distance, whatever ``render(falloff=...)`` says.
+    range : float
+        World units; nothing is lit farther away than this.
+
+    Raises
+    ------
+    TypeError, ValueError
+        When it is used, naming the field.
+
+    Examples
+    --------
+    >>> lamp = facemap.Light((2, 5, 1), color=(1, 0.9, 0.8))
+    >>> sun = facemap.Light.sun((-1, -3, -2))
+    """
+
+    position: Sequence[float] = (0.0, 0.0, 0.0)
+    color: Color = (1.0, 1.0, 1.0)
+    intensity: float = 1.0
+    kind: str = "point"
+    direction: Sequence[float] = (0.0, 0.0, -1.0)
+    inner_angle: float = 0.0
+    outer_angle: float = 45.0
+    falloff: bool = False
+    range: float = math.inf
+
+    @classmethod
+    def spot(cls, position: Sequence[float], direction: Sequence[float], outer_angle: float = 45.0,
+             inner_angle: float = 0.0, **fields) -> Light:
+        """A spot light; angles in degrees from its direction. `fields` are those of Light."""
+        return cls(position, kind="spot", direction=direction, outer_angle=outer_angle, inner_angle=inner_angle,
+                   **fields)
+
+    @classmethod
+    def sun(cls, direction: Sequence[float], color: Color = (1.0, 1.0, 1.0), **fields) -> Light:
+        """A directional light, by the way its light goes. `fields` are those of Light."""
+        return cls(color=color, kind="directional", direction=direction, **fields)
+
+    def _core(self) -> _facemap.Light:
+        light = _facemap.Light()
+        light.kind = _checks.member("kind", self.kind, _facemap.Light.Kind)
+        light.position = _checks.triple("position", self.position)
+        light.color = _checks.color("color", self.color)
+        light.intensity = _at_least_0("intensity", self.intensity)
+        light.direction = _checks.direction("direction", self.direction)
+        light.inner_angle = math.radians(_checks.finite_number("inner_angle", self.inner_angle))
+        light.outer_angle = math.radians(_checks.finite_number("outer_angle", self.outer_angle))
+        light.has_falloff = _checks.truth("falloff", self.falloff)
+        light.range = _checks.number("range", self.range)
+        return light
+
+    @classmethod
+    def _from_core(cls, light: _facemap.Light) -> Light:
+        return cls(light.position, light.color, light.intensity, light.kind.name, light.direction,
+                   degrees(light.inner_angle), degrees(light.outer_angle), light.has_falloff, light.range)
+
+
+def degrees(radians: float) -> float:
+    """A file's angle in degrees, without the rounding of the two conversions: 13 digits, as the program has it."""
+    return float(f"{radians * (180 / math.pi):.13g}")
+
+
+def _at_least_0(name: str, value: float) -> float:
+    found = _checks.finite_number(name, value)
+    if found < 0:
+        raise ValueError(f"{name}: {found} is below 0")
+    return found

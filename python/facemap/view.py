@@ -1,0 +1,302 @@
+"""What is visible from a point."""
+
+from __future__ import annotations
+
+import contextlib
+from typing import Any, Callable, Iterator, NamedTuple, Optional, Tuple
+
+import numpy as np
+
+from . import _checks, _facemap
+from .errors import Error
+from .scene import Scene
+
+MOST_TEXTURE_PIXELS = 1 << 26
+"""Images of more pixels make no holes, unless it is asked for."""
+
+
+class Nearest(NamedTuple):
+    """What ``View.nearest`` gives: two arrays of the directions' shape."""
+
+    face: np.ndarray
+    distance: np.ndarray
+
+
+class AllHits(NamedTuple):
+    """What ``View.all_hits`` gives: direction i has elements begins[i] up to begins[i + 1] of the other two."""
+
+    begins: np.ndarray
+    faces: np.ndarray
+    distances: np.ndarray
+
+
+class View:
+    """What is visible from a fixed point: a FaceMap that is asked about many points and directions at once.
+
+    All answers are exact for the float32 numbers given, on every machine, whatever the number of threads. Arrays of
+    float32 that are C-contiguous are used where they lie, and must not be changed during a call; others are converted.
+
+    Parameters
+    ----------
+    scene : Scene
+        As it is now: faces that are added later are not seen.
+    origin : three floats
+        World units; rounded to float32.
+    threads : int
+        0: as many as the process may run at once. In a process that was forked (multiprocessing's "fork") one works.
+    cut_outs : bool
+        Whether holes that materials make are holes; else every face is solid.
+    max_texture_pixels : int
+        Images of more make no holes.
+
+    Raises
+    ------
+    TypeError, ValueError
+        Naming the argument.
+
+    Examples
+    --------
+    >>> view = facemap.View(scene, (0, 1.7, 0))
+    >>> view.visible([[0, 0, -5], [0, 0, 5]])
+    array([ True, False])
+    """
+
+    def __init__(self, scene: Scene, origin: Any, threads: int = 0, *, cut_outs: bool = True,
+                 max_texture_pixels: int = MOST_TEXTURE_PIXELS) -> None:
+        self._scene = _core_of(scene)
+        self._origin = _checks.triple("origin", origin)
+        self._options = (_checks.threads(threads), _checks.truth("cut_outs", cut_outs),
+                         _checks.whole("max_texture_pixels", max_texture_pixels, 0, 2**63 - 1))
+        self._core = _facemap.View(self._scene, self._origin, *self._options)
+
+    @property
+    def origin(self) -> np.ndarray:
+        """(3,) float32, world units."""
+        return np.array(self._origin, np.float32)
+
+    @property
+    def memory_bytes(self) -> int:
+        """Bytes of all that is kept."""
+        return self._core.memory_bytes
+
+    def prepare(self) -> View:
+        """Makes now what ``visible`` else makes once it has been asked about so many points that it pays.
+
+        Returns the view.
+        """
+        self._core.prepare()
+        return self
+
+    def visible(self, points: Any, faces: Any = None, tolerance: float = 0.0) -> np.ndarray:
+        """Whether no face stands strictly between the origin and each point.
+
+        A point on a face's plane is not hidden by that face; the origin itself is visible; a face that is seen edge-on
+        hides nothing.
+
+        Parameters
+        ----------
+        points : (..., 3) floats
+            World units; finite.
+        faces : (...) whole numbers
+            The face that each point lies on, which never hides it; -1: none.
+        tolerance : float
+            World units: a face hides only points that are farther than this from its plane.
+
+        Returns
+        -------
+        (...) bool
+
+        Raises
+        ------
+        TypeError, ValueError, IndexError
+            Naming the argument.
+
+        Examples
+        --------
+        >>> view.visible(scene.vertices)
+        """
+        flat, shape = _flat("points", points)
+        own = _own_faces(faces, shape, self._scene.face_count)
+        with _named("points"):
+            return self._core.visible(flat, own, _tolerance(tolerance)).reshape(shape)
+
+    def blocked_by(self, points: Any, faces: Any = None) -> np.ndarray:
+        """The first face, seen from the origin, of those that stand strictly between it and each point.
+
+        Of faces at exactly the same distance it is the one turned towards the origin, then the lower id. Parameters
+        are those of ``visible``.
+
+        Returns
+        -------
+        (...) int32
+            -1: none, the point is visible.
+
+        Examples
+        --------
+        >>> view.blocked_by([0, 0, 5])
+        array(12, dtype=int32)
+        """
+        flat, shape = _flat("points", points)
+        own = _own_faces(faces, shape, self._scene.face_count)
+        with _named("points"):
+            return self._core.blocked_by(flat, own).reshape(shape)
+
+    def nearest(self, directions: Any) -> Nearest:
+        """The nearest face along each direction, and the distance to it.
+
+        Edges and vertices belong to their faces. Of faces at exactly the same distance it is the one turned towards
+        the origin, then the lower id.
+
+        Parameters
+        ----------
+        directions : (..., 3) floats
+            Of any length. Nothing is met along the zero vector and what is not finite.
+
+        Returns
+        -------
+        face : (...) int32
+            -1: none.
+        distance : (...) float32
+            World units; infinity: none.
+
+        Examples
+        --------
+        >>> face, distance = view.nearest([[0, 0, -1], [0, -1, 0]])
+        """
+        flat, shape = _flat("directions", directions)
+        face, distance = self._core.nearest(flat)
+        return Nearest(face.reshape(shape), distance.reshape(shape))
+
+    def all_hits(self, directions: Any) -> AllHits:
+        """Every face that each direction meets, in exact order of distance.
+
+        Of faces at the same distance the one turned towards the origin comes first, then the lower id.
+
+        Parameters
+        ----------
+        directions : (..., 3) floats
+            Of any length; in the order of their rows, n in all.
+
+        Returns
+        -------
+        begins : (n + 1,) int64
+            Direction i meets faces[begins[i]:begins[i + 1]].
+        faces : (k,) int32
+        distances : (k,) float32
+            World units.
+
+        Examples
+        --------
+        >>> begins, faces, distances = view.all_hits(directions)
+        """
+        flat, _ = _flat("directions", directions)
+        return AllHits(*self._core.all_hits(flat))
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return _view_from, (self._scene, self._origin, self._options)
+
+    def __repr__(self) -> str:
+        x, y, z = self._origin
+        return f"<facemap.View from ({x:g}, {y:g}, {z:g}) of {self._scene.face_count} faces>"
+
+
+def visibility(scene: Scene, origins: Any, points: Any, packed: bool = False,
+               progress: Optional[Callable[[float, str], Any]] = None, memory: int = 0, *, faces: Any = None,
+               tolerance: float = 0.0, threads: int = 0, cut_outs: bool = True,
+               max_texture_pixels: int = MOST_TEXTURE_PIXELS) -> np.ndarray:
+    """Which points are visible from which origins, as ``View.visible`` has it, by several threads.
+
+    Parameters
+    ----------
+    scene : Scene
+    origins : (..., 3) floats
+        World units; finite.
+    points : (..., 3) floats
+        World units; finite.
+    packed : bool
+        Whether answers are bits: an eighth of the memory. ``numpy.unpackbits(row, count=n, bitorder="little")`` has
+        them one by one.
+    progress : callable
+        Called with the fraction done (0..1) and a word, some times a second. What it raises stops the call.
+    memory : int
+        Bytes that working memory may take, as far as possible; 0: no limit. The answer's own memory is beside it.
+    faces : whole numbers of the points' shape
+        The face that each point lies on, which never hides it; -1: none.
+    tolerance : float
+        World units: a face hides only points that are farther than this from its plane.
+    threads : int
+        0: as many as the process may run at once.
+    cut_outs, max_texture_pixels
+        As of View.
+
+    Returns
+    -------
+    bool, of the origins' shape and then the points'; or packed uint8, of the origins' shape and then (n + 7) // 8
+        bytes for n points, the first one in the least significant bit.
+
+    Raises
+    ------
+    TypeError, ValueError, IndexError
+        Naming the argument.
+
+    Examples
+    --------
+    >>> seen = facemap.visibility(scene, lamps, desks)
+    >>> seen.any(axis=0)                        # desks that some lamp reaches
+    """
+    core = _core_of(scene)
+    from_flat, from_shape = _flat("origins", origins)
+    flat, shape = _flat("points", points)
+    own = _own_faces(faces, shape, core.face_count)
+    _checks.finite("origins", from_flat)
+    is_packed = _checks.truth("packed", packed)
+    with _named("points"):
+        bits = _facemap.visibility_bits(
+            core, from_flat, flat, own, _tolerance(tolerance), _checks.threads(threads),
+            _checks.whole("memory", memory, 0, 2**63 - 1), _checks.truth("cut_outs", cut_outs),
+            _checks.whole("max_texture_pixels", max_texture_pixels, 0, 2**63 - 1), progress)
+    if is_packed:
+        return bits.reshape(from_shape + bits.shape[1:])
+    return np.unpackbits(bits, axis=1, count=len(flat), bitorder="little").view(np.bool_).reshape(from_shape + shape)
+
+
+def _core_of(scene: Any) -> _facemap.Scene:
+    if not isinstance(scene, Scene):
+        raise TypeError(f"scene: a Scene is needed, not {type(scene).__name__}")
+    return scene._core
+
+
+def _view_from(scene: _facemap.Scene, origin: Tuple[float, float, float], options: Tuple[int, bool, int]) -> View:
+    threads, cut_outs, most = options
+    return View(Scene._of(scene), origin, threads, cut_outs=cut_outs, max_texture_pixels=most)
+
+
+def _flat(name: str, value: Any) -> Tuple[np.ndarray, Tuple[int, ...]]:
+    """Rows of three, and the shape of what is said of each."""
+    found = _checks.floats(name, value)
+    return found.reshape(-1, 3), found.shape[:-1]
+
+
+def _own_faces(faces: Any, shape: Tuple[int, ...], count: int) -> Optional[np.ndarray]:
+    if faces is None:
+        return None
+    found = _checks.indices("faces", faces, count, least=-1)
+    if found.shape != shape:
+        raise ValueError(f"faces: the shape is {found.shape}, and {shape} is needed, one a point")
+    return np.require(found, np.int32, ["C_CONTIGUOUS", "ALIGNED"]).reshape(-1)
+
+
+def _tolerance(value: Any) -> float:
+    found = _checks.finite_number("tolerance", value)
+    if found < 0 or not np.isfinite(np.float32(found)):
+        raise ValueError(f"tolerance: {found} is below 0 or too large for float32")
+    return found
+
+
+@contextlib.contextmanager
+def _named(name: str) -> Iterator[None]:
+    """What the library says of the argument gets its name."""
+    try:
+        yield
+    except Error as error:
+        raise Error(f"{name}: {error}") from error

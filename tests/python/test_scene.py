@@ -1,0 +1,127 @@
+"""Scenes from arrays and files."""
+
+import pickle
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import facemap
+
+CORNERS = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+
+
+def test_arrays_are_the_scenes_own_and_read_only(floor):
+    assert floor.vertices.dtype == np.float32 and floor.vertices.shape == (4, 3)
+    assert floor.faces.tolist() == [[0, 2, 1], [0, 3, 2]]
+    assert np.shares_memory(floor.vertices, floor.vertices)
+    with pytest.raises(ValueError):
+        floor.vertices[0, 0] = 7
+    assert floor.bounds.tolist() == [[-1, 0, -1], [1, 0, 1]]
+    assert floor.face_count == 2
+
+
+def test_arrays_outlive_the_scene():
+    vertices = facemap.Scene(CORNERS, [[0, 1, 2]]).vertices
+    assert vertices.tolist() == CORNERS
+
+
+def test_other_numbers_are_rounded_to_float32_once():
+    scene = facemap.Scene(np.array(CORNERS) + 0.1, np.array([[0, 1, 2]], np.int16))
+    assert np.array_equal(scene.vertices, (np.array(CORNERS) + 0.1).astype(np.float32))
+
+
+@pytest.mark.parametrize("names", [("vertices", "faces"), ("vertices", "triangles")])
+def test_meshes_of_others_are_taken(names):
+    mesh = SimpleNamespace(**dict(zip(names, (CORNERS, [[0, 1, 2]]))))
+    assert facemap.Scene(mesh).face_count == 1
+    assert facemap.Scene.from_object(mesh).face_count == 1
+
+
+def test_odd_faces_are_counted():
+    scene = facemap.Scene(CORNERS, [[0, 1, 2], [2, 0, 1], [0, 0, 1]])
+    assert scene.odd_faces == {"zero_area": 0, "repeated_vertex": 1, "duplicate": 1}
+    assert scene.kept_faces.tolist() == [0]
+
+
+def test_added_faces_come_behind_and_are_moved(floor):
+    move = np.eye(4)
+    move[:3, 3] = 0, 2, 0
+    assert floor.add(facemap.Scene(CORNERS, [[0, 1, 2]]), move) is floor
+    assert floor.face_count == 3
+    assert floor.faces[2].tolist() == [4, 5, 6]
+    assert floor.vertices[4].tolist() == [0, 2, 0]
+    floor.add(SimpleNamespace(vertices=CORNERS, faces=[[0, 1, 2]])).add(floor)
+    assert floor.face_count == 8
+
+
+def test_mirrored_parts_keep_their_fronts(floor):
+    floor.add(facemap.Scene(CORNERS, [[0, 1, 2]]), np.diag([-1.0, 1, 1, 1]))
+    a, b, c = floor.vertices[floor.faces[2]]
+    assert np.cross(b - a, c - a)[2] > 0
+
+
+def test_a_pickled_scene_is_the_same(bust):
+    again = pickle.loads(pickle.dumps(bust))
+    assert np.array_equal(again.vertices, bust.vertices) and np.array_equal(again.faces, bust.faces)
+    assert again.cameras == bust.cameras and again.lights == bust.lights
+    size = {"width": 48, "height": 48, "planes": "all"}
+    one, other = bust.render(**size), again.render(**size)
+    assert one.png() == other.png()
+    assert np.array_equal(one.light_mask, other.light_mask)
+
+
+def test_a_file_is_read_with_its_materials(tmp_path):
+    (tmp_path / "m.mtl").write_text("newmtl red\nKd 1 0 0\n")
+    (tmp_path / "m.obj").write_text("mtllib m.mtl\no thing\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    scene = facemap.load(tmp_path / "m.obj")
+    assert scene.materials == ["red"] and scene.objects == ["thing"] and scene.warnings == []
+    again = pickle.loads(pickle.dumps(scene))
+    assert again.materials == ["red"] and again.objects == ["thing"]
+
+
+def test_a_broken_file_is_named_with_its_line(tmp_path):
+    path = tmp_path / "broken.obj"
+    path.write_text("v 0 0 0\nv 1 x 0\n")
+    with pytest.raises(facemap.LoadError) as caught:
+        facemap.load(path)
+    assert caught.value.file == str(path) and caught.value.line == 2 and caught.value.reason
+    assert str(caught.value).startswith(f"{path}:2:")
+    assert isinstance(caught.value, ValueError) and isinstance(caught.value, facemap.Error)
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert str(again) == str(caught.value) and again.line == 2
+
+
+@pytest.mark.parametrize("vertices, faces, error, name", [
+    (CORNERS, [[0, 1, 3]], IndexError, "faces: 3 "),
+    (CORNERS, [[0, 1, -1]], IndexError, "faces: -1 "),
+    (CORNERS, np.zeros((0, 3), int), ValueError, "faces: .*at least one"),
+    (np.zeros((0, 3)), [[0, 1, 2]], IndexError, "faces"),
+    (CORNERS, [[0, 1, 2, 0]], ValueError, "faces: the shape"),
+    (CORNERS, [0, 1, 2], ValueError, "faces: the shape"),
+    (CORNERS, [[0, 1, 2.0]], TypeError, "faces"),
+    ([[0, 0], [1, 0]], [[0, 1, 0]], ValueError, "vertices: the shape"),
+    ([[0, 0, np.nan]], [[0, 0, 0]], ValueError, "vertices: .*finite"),
+    ([[0, 0, 1e300]], [[0, 0, 0]], ValueError, "vertices: .*finite"),
+    ([[0, 0, 1j]], [[0, 0, 0]], TypeError, "vertices"),
+    ([["a", "b", "c"]], [[0, 0, 0]], TypeError, "vertices"),
+    ([[0, 0, 0], [1]], [[0, 0, 0]], TypeError, "vertices"),
+    (None, [[0, 0, 0]], TypeError, "vertices"),
+    (7, None, TypeError, "faces"),
+])
+def test_wrong_arrays_are_named(vertices, faces, error, name):
+    with pytest.raises(error, match=name):
+        facemap.Scene(vertices, faces)
+
+
+def test_wrong_vertex_arrays_and_transforms_are_named(floor):
+    with pytest.raises(ValueError, match="normals: there are 1"):
+        facemap.Scene(CORNERS, [[0, 1, 2]], normals=[[0, 0, 1]])
+    with pytest.raises(ValueError, match="texcoords: the shape"):
+        facemap.Scene(CORNERS, [[0, 1, 2]], texcoords=CORNERS)
+    with pytest.raises(ValueError, match="transform: the shape"):
+        floor.add(floor, np.eye(3))
+    with pytest.raises(ValueError, match="transform: the last row"):
+        floor.add(floor, np.ones((4, 4)))
+    with pytest.raises(TypeError, match="faces"):
+        floor.add(object())
