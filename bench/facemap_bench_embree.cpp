@@ -107,12 +107,25 @@ double Embree::build(bool low_quality, bool robust) {
   return watch.milliseconds();
 }
 
+RTCSceneTy* Embree::hierarchy() const noexcept { return handles_->scene; }
+
+void Embree::for_each(int count, const std::function<void(int)>& task) const {
+  const auto run = [&](int i) {
+    const FlushToZero mode;
+    task(i);
+  };
+  if (threads_ == 1) {
+    for (int i = 0; i < count; ++i) run(i);
+  } else {
+    handles_->arena->execute([&] { tbb::parallel_for(0, count, run); });
+  }
+}
+
 Phases Embree::trace(const Rays& rays, const std::vector<Light>& lights, const EmbreeWay& way, Answer& answer) const {
   const std::uint32_t* face_of = kept_.empty() ? nullptr : scene_->kept_faces().data();
   std::atomic<double> camera_ms{0}, shade_ms{0};
   const Stopwatch watch(cpu_time_ ? Time::Process : Time::Wall);
-  const auto trace_tile = [&](int number) {
-    const FlushToZero mode;
+  for_each(rays.tile_count(), [&](int number) {
     static thread_local TileTracer tracer;
     const Stopwatch tile_watch(cpu_time_ ? Time::Thread : Time::Wall);
     tracer.see(handles_->scene, rays, number, way, width_, face_of, answer);
@@ -121,12 +134,7 @@ Phases Embree::trace(const Rays& rays, const std::vector<Light>& lights, const E
     tracer.write_lights(answer);
     camera_ms.fetch_add(seen_ms);
     shade_ms.fetch_add(tile_watch.milliseconds() - seen_ms);
-  };
-  if (threads_ == 1) {
-    for (int t = 0; t < rays.tile_count(); ++t) trace_tile(t);
-  } else {
-    handles_->arena->execute([&] { tbb::parallel_for(0, rays.tile_count(), trace_tile); });
-  }
+  });
   return {camera_ms / threads_, 0, shade_ms / threads_, watch.milliseconds()};
 }
 

@@ -2,11 +2,14 @@
 
 #include <facemap/scene.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "facemap_bench_question.h"
+
+struct RTCSceneTy;  // RTCScene points to it
 
 namespace facemap::bench {
 
@@ -48,6 +51,12 @@ class Embree {
 
   /// The first face that a ray from `from` meets short of `from` + `way`; kNoFace: none.
   FaceId first_face(const Vector& from, const Vector& way) const;
+
+  /// The hierarchy, to be asked by tasks of for_each.
+  RTCSceneTy* hierarchy() const noexcept;
+
+  /// Calls task(i) for every i in 0..count-1 on the threads, with flush-to-zero on.
+  void for_each(int count, const std::function<void(int)>& task) const;
 
   /// Fills `answer`; `build` of the phases is left 0.
   Phases trace(const Rays& rays, const std::vector<Light>& lights, const EmbreeWay& way, Answer& answer) const;

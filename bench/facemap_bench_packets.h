@@ -8,11 +8,9 @@
 
 #include "facemap_bench_embree.h"
 #include "facemap_bench_question.h"
+#include "facemap_bench_ray_packets.h"
 
 namespace facemap::bench {
-
-/// A ray from the light ends this fraction short of its point, so that the point's own face does not hide it.
-constexpr float kShort = 0x1p-12f;
 
 /// One tile's rays through Embree, from directions to ids and masks. One a thread; its memory is the tile's alone.
 class TileTracer {

@@ -2,8 +2,6 @@
 
 #include <malloc.h>
 
-#include <algorithm>
-
 #include "facemap_bench_clock.h"
 #include "facemap_bench_confirm.h"
 #include "facemap_bench_limit.h"
@@ -192,13 +190,6 @@ class Match {
 };
 
 }  // namespace
-
-Spread spread_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  const double median = values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
-  return {median, values.front(), values.back()};
-}
 
 double Rounds::speed() const {
   std::vector<double> mine, other;

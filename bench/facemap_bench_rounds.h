@@ -5,14 +5,9 @@
 #include "facemap_bench_cases.h"
 #include "facemap_bench_embree.h"
 #include "facemap_bench_question.h"
+#include "facemap_bench_spread.h"
 
 namespace facemap::bench {
-
-/// Median and spread of a few numbers.
-struct Spread {
-  double median = 0, least = 0, most = 0;
-};
-Spread spread_of(std::vector<double> values);
 
 /// Rounds of both sides, turn by turn, on the same question.
 struct Rounds {

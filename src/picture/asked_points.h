@@ -21,7 +21,7 @@ struct AskedPoints {
   double step = 1;   ///< world units, above 0
   double error = 0;  ///< world units, rounding to integers included
   UnsetVector<std::int32_t> x, y, z;
-  UnsetVector<std::uint32_t> faces;    ///< the face a point lies on up to `error`, which never blocks it, or kNoOwnFace
+  UnsetVector<std::uint32_t> faces;    ///< the face a point lies on, which never blocks it, or kNoOwnFace
   UnsetVector<std::uint32_t> samples;  ///< the sample of the picture that sees it
 
   std::size_t size() const noexcept { return x.size(); }

@@ -158,8 +158,7 @@ struct Verdicts {
   std::uint16_t open;  // neither yes nor no, the face's own points apart
 };
 
-// A face's own points are taken out of `open` alone: none is in `yes`, since a point lies within AskedPoints::error of
-// its own face, which the planes' bounds allow for.
+// A face's own points are in neither.
 HWY_INLINE Verdicts verdicts_of(const ShadowPlanes& planes, std::size_t face, std::uint32_t id,
                                 const ShadowBlock& block) {
   const DF d;
@@ -176,7 +175,7 @@ HWY_INLINE Verdicts verdicts_of(const ShadowPlanes& planes, std::size_t face, st
     yes |= bits_of(hn::Gt(lowest, hn::Set(d, 1.0f))) << i;
     no |= bits_of(hn::Or(hn::Lt(lowest, hn::Set(d, -1.0f)), is_own)) << i;
   }
-  return {static_cast<std::uint16_t>(yes), static_cast<std::uint16_t>(~(yes | no))};
+  return {static_cast<std::uint16_t>(yes & ~no), static_cast<std::uint16_t>(~(yes | no))};
 }
 
 // Jobs whose verdicts are found before any of them counts: no branch hangs on a verdict.

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <mutex>
 #include <string>
+#include <utility>
+
+#include "simd/step_points.h"
 
 namespace facemap {
 namespace {
@@ -19,82 +22,106 @@ constexpr double kMostSteps = 0x1p30;
 // 2^-53 of at most 2^30 steps.
 constexpr double kRoundingError = 0.8662;  // steps
 
-// To nearest, ties to even, for magnitudes up to 2^31: what is added leaves no room for a fraction.
-std::int32_t rounded(double x) {
-  constexpr double kMagic = 0x1.8p52;
-  return static_cast<std::int32_t>((x + kMagic) - kMagic);
+// A power of two, above 0, of which `reach` is at most 2^30.
+double step_for(double reach) {
+  int exponent = -1000;
+  if (reach > 0) std::frexp(reach / kMostSteps, &exponent);
+  return std::ldexp(1.0, std::max(exponent, -1000));
 }
 
-struct Box {
-  Vector lower{HUGE_VALF}, upper{-HUGE_VALF};
-};
+const float* floats_of(std::span<const Vector> points) { return &points[0].x; }
 
-// Throws Error if a point is not finite.
-Box box_of(std::span<const Vector> points, const Executor& executor) {
-  Box box;
-  std::mutex merging;
-  for_ranges(executor, points.size(), kFewestPoints, [&](std::size_t first, std::size_t last, int) {
-    Box own;
-    float sum = 0;  // 0 times what is finite
-    for (std::size_t i = first; i < last; ++i) {
-      for (int k = 0; k < 3; ++k) {
-        own.lower[k] = std::min(own.lower[k], points[i][k]);
-        own.upper[k] = std::max(own.upper[k], points[i][k]);
-        sum += 0 * points[i][k];
-      }
-    }
-    if (!(sum == 0)) throw Error("a point is not finite");
-    const std::scoped_lock lock(merging);
-    for (int k = 0; k < 3; ++k) {
-      box.lower[k] = std::min(box.lower[k], own.lower[k]);
-      box.upper[k] = std::max(box.upper[k], own.upper[k]);
-    }
-  });
+// At least one point. Throws Error if one is not finite.
+simd::PointBox box_of(std::span<const Vector> points) {
+  const simd::PointBox box = simd::box_of_points(floats_of(points), points.size());
+  if (!box.is_finite) throw Error("a point is not finite");
   return box;
 }
 
-// A power of two, above 0, of which `reach` is at most 2^30.
-double step_for(double reach) {
-  int exponent;
-  std::frexp(reach / kMostSteps, &exponent);
-  return std::ldexp(1.0, std::max(exponent, -1000));
+simd::PointBox box_of(std::span<const Vector> points, const Executor& executor) {
+  simd::PointBox all{};
+  bool is_first = true;
+  std::mutex merging;
+  for_ranges(executor, points.size(), kFewestPoints, [&](std::size_t first, std::size_t last, int) {
+    const simd::PointBox box = box_of(points.subspan(first, last - first));
+    const std::scoped_lock lock(merging);
+    if (std::exchange(is_first, false)) all = box;
+    for (int k = 0; k < 3; ++k) {
+      all.lower[k] = std::min(all.lower[k], box.lower[k]);
+      all.upper[k] = std::max(all.upper[k], box.upper[k]);
+    }
+  });
+  return all;
+}
+
+// Room for the points of a box.
+void start(const simd::PointBox& box, std::size_t count, AskedPoints& points) {
+  double reach = 0;
+  for (int k = 0; k < 3; ++k) {
+    points.origin[k] = 0.5 * (double{box.lower[k]} + double{box.upper[k]});
+    reach = std::max({reach, double{box.upper[k]} - points.origin[k], points.origin[k] - double{box.lower[k]}});
+  }
+  points.step = step_for(reach);
+  points.error = kRoundingError * points.step;
+  for (auto* coordinates : {&points.x, &points.y, &points.z}) coordinates->resize(count);
+  points.faces.resize(count);
+}
+
+std::uint32_t own_face(const Scene& scene, const Viewpoint::Targets& targets, std::size_t point) {
+  const FaceId face = targets.faces[point];
+  if (face == kNoFace) return kNoOwnFace;
+  if (face < 0 || static_cast<std::size_t>(face) >= scene.face_count()) {
+    throw Error("point " + std::to_string(point) + " lies on face " + std::to_string(face) + ", and there are " +
+                std::to_string(scene.face_count()));
+  }
+  return static_cast<std::uint32_t>(face);
+}
+
+// Targets `first` up to `last` to places from `at` on.
+void fill(const Scene& scene, const Viewpoint::Targets& targets, std::size_t first, std::size_t last, std::size_t at,
+          AskedPoints& points) {
+  const simd::PointSteps steps{{points.origin.x, points.origin.y, points.origin.z}, 1 / points.step};
+  simd::step_points(floats_of(targets.points.subspan(first)), last - first, steps, &points.x[at], &points.y[at],
+                    &points.z[at]);
+  if (targets.faces.empty()) {
+    std::fill_n(&points.faces[at], last - first, kNoOwnFace);
+  } else {
+    for (std::size_t i = first; i < last; ++i) points.faces[at + i - first] = own_face(scene, targets, i);
+  }
 }
 
 }  // namespace
 
 AskedPoints asked_points(const Scene& scene, const Viewpoint::Targets& targets, std::size_t first, std::size_t last,
                          const Executor& executor) {
-  const std::span<const Vector> some = targets.points.subspan(first, last - first);
-  AskedPoints asked;
-  if (some.empty()) return asked;
-  const Box box = box_of(some, executor);
-  double reach = 0;
-  for (int k = 0; k < 3; ++k) {
-    asked.origin[k] = 0.5 * (double{box.lower[k]} + double{box.upper[k]});
-    reach = std::max({reach, double{box.upper[k]} - asked.origin[k], asked.origin[k] - double{box.lower[k]}});
-  }
-  asked.step = step_for(reach);
-  asked.error = kRoundingError * asked.step;
-  for (auto* coordinates : {&asked.x, &asked.y, &asked.z}) coordinates->resize(some.size());
-  asked.faces.resize(some.size());
-  for_ranges(executor, some.size(), kFewestPoints, [&](std::size_t begin, std::size_t end, int) {
-    const double per_step = 1 / asked.step;
-    for (std::size_t i = begin; i < end; ++i) {
-      const DVector steps = (DVector(some[i]) - asked.origin) * per_step;
-      asked.x[i] = rounded(steps.x);
-      asked.y[i] = rounded(steps.y);
-      asked.z[i] = rounded(steps.z);
-    }
-    for (std::size_t i = begin; i < end; ++i) {
-      const FaceId face = targets.faces.empty() ? kNoFace : targets.faces[first + i];
-      if (face != kNoFace && (face < 0 || static_cast<std::size_t>(face) >= scene.face_count())) {
-        throw Error("point " + std::to_string(first + i) + " lies on face " + std::to_string(face) +
-                    ", and there are " + std::to_string(scene.face_count()));
-      }
-      asked.faces[i] = face == kNoFace ? kNoOwnFace : static_cast<std::uint32_t>(face);
-    }
+  AskedPoints points;
+  if (first == last) return points;
+  start(box_of(targets.points.subspan(first, last - first), executor), last - first, points);
+  for_ranges(executor, last - first, kFewestPoints, [&](std::size_t begin, std::size_t end, int) {
+    fill(scene, targets, first + begin, first + end, begin, points);
   });
-  return asked;
+  return points;
+}
+
+void put_points(const Scene& scene, const Viewpoint::Targets& targets, std::size_t first, std::size_t last,
+                AskedPoints& points) {
+  if (first == last) return;
+  start(box_of(targets.points.subspan(first, last - first)), last - first, points);
+  fill(scene, targets, first, last, 0, points);
+}
+
+void check_targets(const Viewpoint::Targets& targets) {
+  if (!targets.faces.empty() && targets.faces.size() != targets.points.size()) {
+    throw Error("targets have no faces or as many as points");
+  }
+  if (!(targets.tolerance >= 0) || !std::isfinite(targets.tolerance)) {
+    throw Error("the tolerance of targets is 0 or more, and finite");
+  }
+}
+
+void check_points(const Scene& scene, const Viewpoint::Targets& targets) {
+  if (!targets.points.empty()) box_of(targets.points);
+  for (std::size_t i = 0; i < targets.faces.size(); ++i) own_face(scene, targets, i);
 }
 
 }  // namespace facemap

@@ -11,4 +11,14 @@ namespace facemap {
 AskedPoints asked_points(const Scene& scene, const Viewpoint::Targets& targets, std::size_t first, std::size_t last,
                          const Executor& executor);
 
+/// The same by one thread, into memory that was used before.
+void put_points(const Scene& scene, const Viewpoint::Targets& targets, std::size_t first, std::size_t last,
+                AskedPoints& points);
+
+/// Throws Error as Viewpoint::visible does for targets whose sizes differ, and for the tolerance.
+void check_targets(const Viewpoint::Targets& targets);
+
+/// The same for each point and face, as asked_points does.
+void check_points(const Scene& scene, const Viewpoint::Targets& targets);
+
 }  // namespace facemap

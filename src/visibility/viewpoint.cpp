@@ -27,7 +27,8 @@ Viewpoint::Kept::Kept(const Scene& of, const Vector& at, const Options& wanted)
       origin(at),
       options(checked(at, wanted)),
       executor(options.threads),
-      faces(map_faces(scene, options.cut_outs, options.max_texture_pixels)) {}
+      faces(map_faces(scene, options.cut_outs, options.max_texture_pixels)),
+      visible_points(faces, origin, executor) {}
 
 const FittedView& Viewpoint::Kept::near_view() {
   return near.get([&] { return std::make_unique<FittedView>(faces, origin, false); });
@@ -47,7 +48,7 @@ const Scene& Viewpoint::scene() const noexcept { return kept_->scene; }
 const Vector& Viewpoint::origin() const noexcept { return kept_->origin; }
 
 std::size_t Viewpoint::memory_bytes() const {
-  std::size_t bytes = sizeof(Kept);
+  std::size_t bytes = sizeof(Kept) + kept_->visible_points.memory_bytes();
   if (const FittedView* near = kept_->near.if_made()) bytes += near->memory_bytes();
   if (const WholeView* whole = kept_->whole.if_made()) bytes += whole->memory_bytes();
   return bytes;

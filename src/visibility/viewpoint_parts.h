@@ -8,6 +8,7 @@
 #include "parallel/executor.h"
 #include "visibility/fitted_view.h"
 #include "visibility/made_once.h"
+#include "visibility/visible_points.h"
 #include "visibility/whole_view.h"
 
 namespace facemap {
@@ -26,6 +27,7 @@ struct Viewpoint::Kept {
   MapFaces faces;
   MadeOnce<FittedView> near;
   MadeOnce<WholeView> whole;
+  VisiblePoints visible_points;
 };
 
 /// Throws Error unless there are as many answers as questions.

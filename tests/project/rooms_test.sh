@@ -20,5 +20,5 @@ forbid 'src/map' '(picture|visibility|material|render)'
 forbid 'src/picture' '(visibility|material|render)'
 forbid 'src/visibility' '(material|render)'
 forbid 'src/material' '(map|picture|visibility|render)'
-forbid 'apps examples python bench/facemap_bench*' '(math|simd|parallel|image|scene|map|picture|visibility|material|render)'
+forbid 'apps examples python bench/facemap_bench* bench/visibility*' '(math|simd|parallel|image|scene|map|picture|visibility|material|render)'
 exit $failed

@@ -360,13 +360,20 @@ bool View::is_far_from_plane(FaceId face, const Vector& point, float tolerance) 
 }
 
 bool View::is_lit(const Vector& point, const facemap::PointLight::On& on) const {
-  const Target target = target_of(point, on.face);
+  return is_reached(target_of(point, on.face), point, on.face, on.tolerance);
+}
+
+bool View::is_visible(const Vector& point, FaceId own, float tolerance) const {
+  return is_reached(target_of(point, kNoFace), point, own, tolerance);
+}
+
+bool View::is_reached(const Target& target, const Vector& point, FaceId own, float tolerance) const {
   bool blocked = false;
   for_each_near(target, [&](std::size_t i) {
     const FacePlanes& G = faces_[i];
     bool strictly_inside = false;
-    blocked = G.face != on.face && meets(G, target, &strictly_inside) && is_beyond(G, target) &&
-              is_far_from_plane(G.face, point, on.tolerance) && is_there_before(G.face, {point.x, point.y, point.z});
+    blocked = G.face != own && meets(G, target, &strictly_inside) && is_beyond(G, target) &&
+              is_far_from_plane(G.face, point, tolerance) && is_there_before(G.face, {point.x, point.y, point.z});
     return !blocked;
   });
   return !blocked;

@@ -105,6 +105,9 @@ class View {
   bool is_lit(const SurfacePoint& point) const;
   bool is_lit(const Vector& point, const facemap::PointLight::On& on) const;
 
+  /// Whether no face but `own` (kNoFace: none) that is farther than `tolerance` from the point stands strictly between.
+  bool is_visible(const Vector& point, FaceId own, float tolerance) const;
+
   /// How many signs the doubles left to the integers so far.
   std::uint64_t exact_signs() const { return exact_signs_; }
 
@@ -134,6 +137,7 @@ class View {
   int compare_distance(const FacePlanes& f, const FacePlanes& g, const Target& target) const;
   std::vector<Meeting> all_meetings(const Vector& direction) const;
   bool comes_before(const FacePlanes& f, const FacePlanes& g, const Target& target) const;
+  bool is_reached(const Target& target, const Vector& point, FaceId own, float tolerance) const;
   bool is_there_before(FaceId face, const Holes::Point& point) const;
   Target target_from(const BigVector& X, const mpz_class& w) const;
   Target target_from(const Vector& direction) const;

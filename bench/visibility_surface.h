@@ -1,0 +1,16 @@
+#pragma once
+
+#include <facemap/scene.h>
+#include <facemap/vector.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace facemap::bench {
+
+/// Random points on a scene's faces, uniform by area, rounded to float32, in random order. `lift`: world units that
+/// they are moved along their faces' normals.
+std::vector<Vector> surface_points(const Scene& scene, std::size_t count, std::uint64_t seed, double lift = 0);
+
+}  // namespace facemap::bench
