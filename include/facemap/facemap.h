@@ -35,3 +35,4 @@
 #include <facemap/vector.h>
 #include <facemap/viewpoint.h>
 #include <facemap/visibility.h>
+#include <facemap/visible_faces.h>

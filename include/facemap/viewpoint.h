@@ -3,6 +3,7 @@
 #include <facemap/face.h>
 #include <facemap/scene.h>
 #include <facemap/vector.h>
+#include <facemap/visible_faces.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -73,6 +74,16 @@ class Viewpoint {
   /// Every face that each direction meets, in exact order of distance; of faces at the same distance the one turned
   /// towards the origin comes first, then the lower id. Nothing for the zero vector and for what is not finite.
   AllHits all_hits(std::span<const Vector> directions, const Progress& progress = {}) const;
+
+  /// Which faces are visible, each with a direction that sees it, and which are hidden. Throws Error if stopped.
+  VisibleFaces visible_faces(const Progress& progress = {}) const;
+
+  /// Why visible_faces() calls a face hidden for HiddenReason::Covered: pieces that make up the face, each with what
+  /// covers it. None for other faces. Throws Error if there is no such face.
+  std::vector<CoveredPiece> covered_pieces(FaceId face) const;
+
+  /// For each vertex of the scene 1 if it is visible, as visible() has it, else 0.
+  std::vector<std::uint8_t> visible_vertices(const Progress& progress = {}) const;
 
   /// Bytes of all that is kept.
   std::size_t memory_bytes() const;

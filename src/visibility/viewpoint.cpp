@@ -38,6 +38,10 @@ const WholeView& Viewpoint::Kept::whole_view() {
   return whole.get([&] { return std::make_unique<WholeView>(scene, origin, faces); });
 }
 
+const VisibleFaceSearch& Viewpoint::Kept::face_search() {
+  return seen_faces.get([&] { return std::make_unique<VisibleFaceSearch>(faces, origin, executor); });
+}
+
 Viewpoint::Viewpoint(const Scene& scene, const Vector& origin, const Options& options)
     : kept_(std::make_unique<Kept>(scene, origin, options)) {}
 Viewpoint::~Viewpoint() = default;
@@ -51,6 +55,7 @@ std::size_t Viewpoint::memory_bytes() const {
   std::size_t bytes = sizeof(Kept) + kept_->visible_points.memory_bytes();
   if (const FittedView* near = kept_->near.if_made()) bytes += near->memory_bytes();
   if (const WholeView* whole = kept_->whole.if_made()) bytes += whole->memory_bytes();
+  if (const VisibleFaceSearch* search = kept_->seen_faces.if_made()) bytes += search->memory_bytes();
   return bytes;
 }
 

@@ -8,6 +8,7 @@
 #include "parallel/executor.h"
 #include "visibility/fitted_view.h"
 #include "visibility/made_once.h"
+#include "visibility/visible_face_search.h"
 #include "visibility/visible_points.h"
 #include "visibility/whole_view.h"
 
@@ -19,6 +20,7 @@ struct Viewpoint::Kept {
 
   const FittedView& near_view();  ///< keeps what is nearest
   const WholeView& whole_view();
+  const VisibleFaceSearch& face_search();
 
   const Scene& scene;
   Vector origin;
@@ -28,6 +30,7 @@ struct Viewpoint::Kept {
   MadeOnce<FittedView> near;
   MadeOnce<WholeView> whole;
   VisiblePoints visible_points;
+  MadeOnce<VisibleFaceSearch> seen_faces;
 };
 
 /// Throws Error unless there are as many answers as questions.

@@ -1,0 +1,133 @@
+#include "visibility/face_answers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "map/face_planes.h"
+#include "map/nearest_hit.h"
+#include "math/exact_sign.h"
+
+namespace facemap {
+namespace {
+
+// What a face may cost before it stays undecided. A step is a face of a patch; a box that a ray passes takes about a
+// twentieth of one.
+constexpr std::size_t kMostPieces = 128;
+constexpr std::size_t kMostSteps = 1 << 16;
+constexpr std::size_t kBoxesAStep = 20;
+
+}  // namespace
+
+FaceAnswers::FaceAnswers(const VisibleFaceSearch& search) : search_(search), reached_(search.sides_.size(), 0) {}
+
+FaceAnswers::Answer FaceAnswers::decide(std::uint32_t id, std::vector<CoveredPiece>* pieces) {
+  if (pieces != nullptr) pieces->clear();
+  if (!search_.faces_.all().is_kept(id)) return {FaceVisibility::Hidden, HiddenReason::LeftOut};
+  if (search_.sides_[id] == 0) return {FaceVisibility::Hidden, HiddenReason::EdgeOn};
+  const SeenFace face(search_.faces_.scene, id, search_.sides_[id], search_.origin_);
+  work_ = 0;
+  const FacePiece whole(face, search_.origin_);
+  pieces_.assign(1, whole);
+  for (std::size_t next = 0; next < pieces_.size(); ++next) {
+    const FacePiece piece = pieces_[next];
+    const Outcome outcome = ask(piece);
+    if (outcome == Outcome::Seen) return {FaceVisibility::Visible, HiddenReason::None, direction_};
+    if (outcome == Outcome::Covered) {
+      if (pieces != nullptr) {
+        pieces->push_back({piece.scale(), piece.corners(), static_cast<FaceId>(cover_), direction_});
+      }
+      continue;
+    }
+    const std::size_t before = pieces_.size();
+    if (before < kMostPieces && work_ < kMostSteps) piece.divide(cut_, whole, pieces_);
+    if (pieces_.size() == before) {
+      if (pieces != nullptr) pieces->clear();
+      return {};
+    }
+  }
+  return {FaceVisibility::Hidden, HiddenReason::Covered};
+}
+
+// Along the direction to the piece's middle, which becomes direction_.
+FaceAnswers::Outcome FaceAnswers::ask(const FacePiece& piece) {
+  const SeenFace& face = piece.face();
+  direction_ = piece.middle();
+  cut_ = {};
+  if (!covers(face.triangle(), face.side, search_.origin_, direction_).strictly_inside) return Outcome::Open;
+  const FaceId first = nearest(face);
+  if (first == static_cast<FaceId>(face.id)) return Outcome::Seen;
+  if (!piece.surely_holds(direction_)) return Outcome::Open;
+  bool is_first = true;
+  for (const std::uint32_t seed : before_) {
+    if (seed == face.id) continue;
+    FacePiece::Cut cut;
+    if (is_covered_by(piece, seed, cut)) {
+      cover_ = seed;
+      return Outcome::Covered;
+    }
+    if (is_first) cut_ = cut;
+    is_first = false;
+  }
+  return Outcome::Open;
+}
+
+// The face that direction_ meets first, if that is not behind `face`. Fills before_, that face first if it is solid.
+FaceId FaceAnswers::nearest(const SeenFace& face) {
+  const MapFaces& faces = search_.faces_;
+  const Tracked t = ray_parameter({search_.origin_, direction_, face.triangle(), face.side});
+  work_ += search_.tree_.find(search_.origin_, direction_, t.value + t.error, found_) / kBoxesAStep + 1;
+  NearestHit best(faces.scene, search_.origin_, direction_, nullptr);
+  before_.clear();
+  for (const std::uint32_t id : found_) {
+    const int side = search_.sides_[id];
+    const Covering covering = covers(triangle_of(faces.scene, id), side, search_.origin_, direction_);
+    if (!covering.hit) continue;
+    if (faces.has_cut_outs() && faces.cut_outs->cut().is_kept(id)) {
+      if (!faces.cut_outs->is_there(id, DVector(search_.origin_), DVector(direction_))) continue;
+    } else {
+      before_.push_back(id);
+    }
+    best.meet(id, side, covering.strictly_inside);
+  }
+  const FaceId first = best.hit().face;
+  const auto nearest = std::find(before_.begin(), before_.end(), static_cast<std::uint32_t>(first));
+  if (nearest != before_.end()) std::iter_swap(before_.begin(), nearest);
+  return first;
+}
+
+// Whether the patch of `seed` has no outline in the piece and all of it there stands before the piece's face.
+// Else `cut` tells where it ends.
+bool FaceAnswers::is_covered_by(const FacePiece& piece, std::uint32_t seed, FacePiece::Cut& cut) {
+  if (++search_number_ == 0) {
+    std::fill(reached_.begin(), reached_.end(), 0u);
+    search_number_ = 1;
+  }
+  const auto& sides = search_.sides_;
+  to_do_.assign(1, seed);
+  reached_[seed] = search_number_;
+  while (!to_do_.empty()) {
+    const std::uint32_t id = to_do_.back();
+    to_do_.pop_back();
+    if (++work_ >= kMostSteps) return false;
+    const SeenFace face(search_.faces_.scene, id, sides[id], search_.origin_);
+    if (!piece.surely_yields_to(face)) {
+      cut = piece.along_plane(face);
+      return false;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t other = search_.neighbours_[id][k];
+      const bool goes_on = other != kNoNeighbour && sides[other] == sides[id];
+      if (goes_on && reached_[other] == search_number_) continue;
+      if (!piece.may_meet(face.vertices[k], face.vertices[(k + 1) % 3])) continue;
+      if (!goes_on) {
+        cut = piece.along_edge(face, k);
+        return false;
+      }
+      reached_[other] = search_number_;
+      to_do_.push_back(other);
+    }
+  }
+  return true;
+}
+
+}  // namespace facemap

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <facemap/visible_faces.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "visibility/face_piece.h"
+#include "visibility/visible_face_search.h"
+
+namespace facemap {
+
+/// Answers for one face after the other, with memory of its own: one a thread. An answer depends on the face alone.
+class FaceAnswers {
+ public:
+  explicit FaceAnswers(const VisibleFaceSearch& search);
+
+  struct Answer {
+    FaceVisibility visibility = FaceVisibility::Undecided;
+    HiddenReason reason = HiddenReason::None;
+    Vector witness{0};
+  };
+
+  /// Looks for a direction that sees a piece of the face, and for faces that cover it; cuts pieces up that have
+  /// neither. `pieces`, if not null, becomes those that are covered.
+  Answer decide(std::uint32_t face, std::vector<CoveredPiece>* pieces = nullptr);
+
+ private:
+  enum class Outcome { Seen, Covered, Open };
+
+  Outcome ask(const FacePiece& piece);
+  FaceId nearest(const SeenFace& face);
+  bool is_covered_by(const FacePiece& piece, std::uint32_t seed, FacePiece::Cut& cut);
+
+  const VisibleFaceSearch& search_;
+  std::size_t work_ = 0;  // steps for the face so far
+  Vector direction_{0};   // of the latest piece asked
+  std::uint32_t cover_ = 0;
+  FacePiece::Cut cut_;  // where what might have covered it ends
+  std::vector<FacePiece> pieces_;
+  std::vector<std::uint32_t> found_;   // by a ray
+  std::vector<std::uint32_t> before_;  // solid faces that the ray meets
+  std::vector<std::uint32_t> to_do_;
+  std::vector<std::uint32_t> reached_;  // a face: in which search of a patch
+  std::uint32_t search_number_ = 0;
+};
+
+}  // namespace facemap
