@@ -55,7 +55,8 @@ class Camera : public FaceMap {
 
  protected:
   Camera(const MapFaces& faces, const SpaceVector& frame, const Options& options);
-  Camera(const MapFaces& faces, const SpaceVector& frame, const Projection& projection, bool keep_all);
+  Camera(const MapFaces& faces, const SpaceVector& frame, const Projection& projection,
+         std::shared_ptr<const FacePlanesTable> planes, bool keep_all);
 
   /// Tells `best` of the faces of the map that the ray meets, but for some that are behind what it knows already.
   /// `texel` must be texel_of(direction).

@@ -68,12 +68,16 @@ class FaceMap : public SpaceVector {
   /// Bytes of lists and planes.
   std::size_t memory_bytes() const noexcept;
 
+  /// Those of lists alone.
+  std::size_t list_bytes() const noexcept;
+
   /// Entries in all lists.
   std::size_t entry_count() const noexcept;
 
  protected:
-  FaceMap(const MapFaces& faces, const SpaceVector& frame, const Projection& projection, Builder builder,
-          bool keep_all);
+  /// `planes`: of all faces about the frame's position, if they are made already.
+  FaceMap(const MapFaces& faces, const SpaceVector& frame, const Projection& projection, Builder builder, bool keep_all,
+          std::shared_ptr<const FacePlanesTable> planes = nullptr);
 
   const FacePlanesTable& planes() const noexcept { return *planes_; }
   const Texels& texels() const noexcept { return *texels_; }
@@ -90,7 +94,7 @@ class FaceMap : public SpaceVector {
   std::shared_ptr<const CutOuts> cut_outs_;  // null: all faces are solid
   Projection projection_;
   Builder builder_;
-  std::unique_ptr<FacePlanesTable> planes_;
+  std::shared_ptr<const FacePlanesTable> planes_;
   std::unique_ptr<Texels> texels_;
   std::unique_ptr<Texels> cut_texels_;  // null: there are none
 };

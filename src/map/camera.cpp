@@ -1,5 +1,7 @@
 #include <facemap/camera.h>
 
+#include <utility>
+
 #include "map/face_planes.h"
 #include "map/map_faces.h"
 #include "map/nearest_hit.h"
@@ -16,8 +18,9 @@ Camera::Camera(const MapFaces& faces, const SpaceVector& frame, const Options& o
     : FaceMap(faces, frame, Projection(options.projection, options.field_angle, options.width, options.height),
               options.builder, options.keep_all) {}
 
-Camera::Camera(const MapFaces& faces, const SpaceVector& frame, const Projection& projection, bool keep_all)
-    : FaceMap(faces, frame, projection, Builder::Cover, keep_all) {}
+Camera::Camera(const MapFaces& faces, const SpaceVector& frame, const Projection& projection,
+               std::shared_ptr<const FacePlanesTable> planes, bool keep_all)
+    : FaceMap(faces, frame, projection, Builder::Cover, keep_all, std::move(planes)) {}
 
 Vector Camera::direction_through(const MapPoint& point) const {
   const FloatingPointMode mode;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "map/cover.h"
 #include "map/face_planes.h"
@@ -33,16 +34,17 @@ Texels build_texels(const Scene& scene, const SpaceVector& frame, const Projecti
 }  // namespace
 
 FaceMap::FaceMap(const MapFaces& faces, const SpaceVector& frame, const Projection& projection, Builder builder,
-                 bool keep_all)
+                 bool keep_all, std::shared_ptr<const FacePlanesTable> planes)
     : SpaceVector(frame),
       scene_(&faces.scene),
       all_(&faces.all()),
       solid_(&faces.solid()),
       cut_outs_(faces.cut_outs),
       projection_(projection),
-      builder_(builder) {
+      builder_(builder),
+      planes_(std::move(planes)) {
   const FloatingPointMode mode;
-  planes_ = std::make_unique<FacePlanesTable>(*all_, position());
+  if (planes_ == nullptr) planes_ = std::make_shared<const FacePlanesTable>(*all_, position());
   const auto build = [&](const Scene& scene, bool keeps_all) {
     return std::make_unique<Texels>(build_texels(scene, *this, projection, *planes_, builder, keeps_all));
   };
@@ -94,8 +96,10 @@ int FaceMap::count_hits(const Vector& direction, Counters* counters) const {
   return hits;
 }
 
-std::size_t FaceMap::memory_bytes() const noexcept {
-  return planes_->memory_bytes() + texels_->memory_bytes() + (has_cut_outs() ? cut_texels_->memory_bytes() : 0);
+std::size_t FaceMap::memory_bytes() const noexcept { return planes_->memory_bytes() + list_bytes(); }
+
+std::size_t FaceMap::list_bytes() const noexcept {
+  return texels_->memory_bytes() + (has_cut_outs() ? cut_texels_->memory_bytes() : 0);
 }
 
 std::size_t FaceMap::entry_count() const noexcept {

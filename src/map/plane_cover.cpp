@@ -14,6 +14,12 @@ namespace {
 // stretches an angular error.
 constexpr double kForwardShare = 1.0 / 64;
 
+// Within this tangent of the axis a direction's error is stretched by no more than that.
+constexpr double kWidestEdge = 32;
+
+// Relative, of a local offset: its rounding, with a wide reserve.
+constexpr double kOffsetError = 0x1p-45;
+
 }  // namespace
 
 struct PlaneCover::Image {
@@ -28,22 +34,40 @@ PlaneCover::PlaneCover(const Scene& scene, const SpaceVector& frame, const Proje
     : scene_(scene), frame_(frame), projection_(projection), planes_(planes), out_(out) {
   const double angular_error = kDirectionError + 2 * Projection::kMapError;
   margin_ = angular_error / (kForwardShare * kForwardShare) / projection.texel_angle() + kCoordinateRounding;
+  const double past = 0.5 + margin_ / std::min(projection.width(), projection.height());
+  edge_x_ = projection.width() * projection.texel_angle() * past;
+  edge_y_ = projection.height() * projection.texel_angle() * past;
+  if (std::max(edge_x_, edge_y_) > kWidestEdge) edge_x_ = edge_y_ = HUGE_VAL;
   project_vertices();
+}
+
+// A direction of the raster has z > 0, |x| < edge_x_ z and |y| < edge_y_ z. If for all three corners of a face one of
+// these surely fails, it does so for all of the face.
+std::uint8_t PlaneCover::sides_outside(const DVector& p) const {
+  const double error = kOffsetError * (1 + edge_x_ + edge_y_) * length(p);
+  const double x = edge_x_ * p.z, y = edge_y_ * p.z;
+  const bool fails[] = {p.z<-error, p.x - x> error, -p.x - x > error, p.y - y > error, -p.y - y > error};
+  std::uint8_t bits = 0;
+  for (int i = 0; i < 5; ++i) bits = static_cast<std::uint8_t>(bits | fails[i] << i);
+  return bits;
 }
 
 void PlaneCover::project_vertices() {
   const std::vector<Vector>& positions = scene_.mesh().positions;
   const DVector O(frame_.position());
   points_.resize(positions.size());
+  outside_.resize(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const DVector p = frame_.local_from_world(DVector(positions[i]) - O);
     const bool is_in_front = p.z > kForwardShare * length(p);
     points_[i] = is_in_front ? projection_.map_from_local(p) : MapPoint(HUGE_VAL);
+    outside_[i] = sides_outside(p);
   }
 }
 
 bool PlaneCover::add(std::uint32_t id, Pass pass) {
   const auto& corner = scene_.mesh().triangles[id];
+  if ((outside_[corner[0]] & outside_[corner[1]] & outside_[corner[2]]) != 0) return true;
   const MapPoint corners[] = {points_[corner[0]], points_[corner[1]], points_[corner[2]]};
   if (!(corners[0].x + corners[1].x + corners[2].x < HUGE_VAL)) return false;
   const TexelBox whole = box_around(corners, margin_);

@@ -4,6 +4,7 @@
 #include <facemap/scene.h>
 #include <facemap/space_vector.h>
 
+#include <cstdint>
 #include <vector>
 
 #include "map/cover.h"
@@ -18,14 +19,15 @@ class PlaneCover {
   PlaneCover(const Scene& scene, const SpaceVector& frame, const Projection& projection, const FacePlanesTable& planes,
              Coverage& out);
 
-  /// Adds to the cuts or to the entries what face `id`, which has a side, gives to them. False if it is not well in
-  /// front of the map.
+  /// Adds to the cuts or to the entries what face `id`, which has a side, gives to them. False if it is neither well
+  /// in front of the map nor surely outside of it.
   bool add(std::uint32_t id, Pass pass);
 
  private:
   struct Image;
 
   void project_vertices();
+  std::uint8_t sides_outside(const DVector& local) const;
   void cut(std::uint32_t id, const Image& image);
   void enter(std::uint32_t id, const Image& image);
   std::size_t row_of(int y) const {
@@ -37,8 +39,10 @@ class PlaneCover {
   const Projection& projection_;
   const FacePlanesTable& planes_;
   Coverage& out_;
-  double margin_;                 // of map points, texels
-  std::vector<MapPoint> points_;  // of vertices; infinite for those not well in front
+  double margin_;                      // of map points, texels
+  double edge_x_, edge_y_;             // tangents of angles from the axis, surely outside of the raster
+  std::vector<MapPoint> points_;       // of vertices; infinite for those not well in front
+  std::vector<std::uint8_t> outside_;  // of vertices: one bit a plane through O that the raster lies before
 };
 
 }  // namespace facemap

@@ -17,14 +17,14 @@ AllHits Viewpoint::all_hits(std::span<const Vector> directions, const Progress& 
   const FloatingPointMode mode;
   AllHits hits;
   if (directions.empty()) return hits;
-  const WholeView& view = kept_->whole_view();
+  const RayLists& lists = kept_->whole_lists();
   hits.begins.resize(directions.size() + 1);
-  std::vector<std::vector<WholeView::Meeting>> pieces((directions.size() + kPiece - 1) / kPiece);
+  std::vector<std::vector<Meeting>> pieces((directions.size() + kPiece - 1) / kPiece);
   for_pieces(kept_->executor, directions.size(), kPiece, progress,
              [&](std::size_t first, std::size_t last, std::size_t piece) {
                for (std::size_t i = first; i < last; ++i) {
                  const std::size_t before = pieces[piece].size();
-                 view.meet_all(directions[i], pieces[piece]);
+                 lists.meet_all(directions[i], pieces[piece]);
                  hits.begins[i + 1] = pieces[piece].size() - before;
                }
              });
@@ -33,11 +33,11 @@ AllHits Viewpoint::all_hits(std::span<const Vector> directions, const Progress& 
   hits.distances.resize(hits.begins.back());
   kept_->executor.for_each(pieces.size(), [&](std::size_t piece, int) {
     std::size_t to = hits.begins[piece * kPiece];
-    for (const WholeView::Meeting& meeting : pieces[piece]) {
+    for (const Meeting& meeting : pieces[piece]) {
       hits.faces[to] = meeting.face;
       hits.distances[to++] = meeting.distance;
     }
-    std::vector<WholeView::Meeting>().swap(pieces[piece]);
+    std::vector<Meeting>().swap(pieces[piece]);
   });
   return hits;
 }

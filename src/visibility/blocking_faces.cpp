@@ -1,7 +1,9 @@
 #include <facemap/error.h>
 
 #include <cmath>
+#include <mutex>
 #include <string>
+#include <vector>
 
 #include "simd/floating_point_mode.h"
 #include "visibility/pieces.h"
@@ -34,14 +36,27 @@ void Viewpoint::blocked_by(const Targets& targets, std::span<FaceId> blockers, c
   if (targets.tolerance != 0) throw Error("blocked_by takes no tolerance");
   for (std::size_t i = 0; i < count; ++i) check_target(kept_->scene, targets, i);
   if (count == 0) return;
-  const FittedView& near = kept_->near_view();
+  const auto skip_of = [&](std::size_t i) {
+    const bool is_none = targets.faces.empty() || targets.faces[i] == kNoFace;
+    return is_none ? RayMap::kSkipNone : static_cast<std::uint32_t>(targets.faces[i]);
+  };
+  const RayLists& near = kept_->near_lists();
+  std::vector<std::size_t> open;
+  std::mutex adding;
   for_pieces(kept_->executor, count, kPiece, progress, [&](std::size_t first, std::size_t last, std::size_t) {
     for (std::size_t i = first; i < last; ++i) {
-      const std::uint32_t skip = targets.faces.empty() || targets.faces[i] == kNoFace
-                                     ? FittedView::kSkipNone
-                                     : static_cast<std::uint32_t>(targets.faces[i]);
-      const std::optional<FaceId> blocker = near.first_blocker(targets.points[i], skip);
-      blockers[i] = blocker ? *blocker : *kept_->whole_view().first_blocker(targets.points[i], skip);
+      const std::optional<FaceId> blocker = near.first_blocker(targets.points[i], skip_of(i));
+      blockers[i] = blocker.value_or(kNoFace);
+      if (blocker) continue;
+      const std::scoped_lock lock(adding);
+      open.push_back(i);
+    }
+  });
+  if (open.empty()) return;
+  const RayLists& whole = kept_->whole_lists();
+  for_pieces(kept_->executor, open.size(), kPiece, {}, [&](std::size_t first, std::size_t last, std::size_t) {
+    for (std::size_t k = first; k < last; ++k) {
+      blockers[open[k]] = *whole.first_blocker(targets.points[open[k]], skip_of(open[k]));
     }
   });
 }

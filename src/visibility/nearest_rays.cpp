@@ -15,11 +15,11 @@ void Viewpoint::nearest(std::span<const Vector> directions, std::span<FaceId> fa
   check_size(faces.size(), directions.size());
   check_size(distances.size(), directions.size());
   if (directions.empty()) return;
-  const FittedView& view = kept_->near_view();
+  const RayLists& lists = kept_->near_lists();
   for_pieces(kept_->executor, directions.size(), kPiece, progress,
              [&](std::size_t first, std::size_t last, std::size_t) {
                for (std::size_t i = first; i < last; ++i) {
-                 const Camera::Hit hit = view.nearest(directions[i]);
+                 const Camera::Hit hit = lists.nearest(directions[i]);
                  faces[i] = hit.face;
                  distances[i] = hit.depth;
                }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "map/face_planes.h"
 #include "visibility/viewpoint_parts.h"
 
 namespace facemap {
@@ -30,12 +31,19 @@ Viewpoint::Kept::Kept(const Scene& of, const Vector& at, const Options& wanted)
       faces(map_faces(scene, options.cut_outs, options.max_texture_pixels)),
       visible_points(faces, origin, executor) {}
 
-const FittedView& Viewpoint::Kept::near_view() {
-  return near.get([&] { return std::make_unique<FittedView>(faces, origin, false); });
+const RayLists& Viewpoint::Kept::near_lists() {
+  return near.get([&] { return make_lists(false); });
 }
 
-const WholeView& Viewpoint::Kept::whole_view() {
-  return whole.get([&] { return std::make_unique<WholeView>(scene, origin, faces); });
+const RayLists& Viewpoint::Kept::whole_lists() {
+  return whole.get([&] { return make_lists(true); });
+}
+
+std::unique_ptr<RayLists> Viewpoint::Kept::make_lists(bool keep_all) {
+  using Planes = std::shared_ptr<const FacePlanesTable>;
+  const Planes& table = planes.get(
+      [&] { return std::make_unique<Planes>(std::make_shared<const FacePlanesTable>(faces.all(), origin)); });
+  return std::make_unique<RayLists>(faces, origin, table, keep_all, executor);
 }
 
 const VisibleFaceSearch& Viewpoint::Kept::face_search() {
@@ -53,8 +61,9 @@ const Vector& Viewpoint::origin() const noexcept { return kept_->origin; }
 
 std::size_t Viewpoint::memory_bytes() const {
   std::size_t bytes = sizeof(Kept) + kept_->visible_points.memory_bytes();
-  if (const FittedView* near = kept_->near.if_made()) bytes += near->memory_bytes();
-  if (const WholeView* whole = kept_->whole.if_made()) bytes += whole->memory_bytes();
+  if (const auto* planes = kept_->planes.if_made()) bytes += (*planes)->memory_bytes();
+  if (const RayLists* near = kept_->near.if_made()) bytes += near->memory_bytes();
+  if (const RayLists* whole = kept_->whole.if_made()) bytes += whole->memory_bytes();
   if (const VisibleFaceSearch* search = kept_->seen_faces.if_made()) bytes += search->memory_bytes();
   return bytes;
 }

@@ -3,14 +3,14 @@
 #include <facemap/viewpoint.h>
 
 #include <cstddef>
+#include <memory>
 
 #include "map/map_faces.h"
 #include "parallel/executor.h"
-#include "visibility/fitted_view.h"
 #include "visibility/made_once.h"
+#include "visibility/ray_lists.h"
 #include "visibility/visible_face_search.h"
 #include "visibility/visible_points.h"
-#include "visibility/whole_view.h"
 
 namespace facemap {
 
@@ -18,8 +18,9 @@ namespace facemap {
 struct Viewpoint::Kept {
   Kept(const Scene& scene, const Vector& origin, const Options& options);
 
-  const FittedView& near_view();  ///< keeps what is nearest
-  const WholeView& whole_view();
+  /// Not to be called by the executor's tasks: they might wait for a thread that waits for them.
+  const RayLists& near_lists();   ///< without what is behind a face that fills a texel
+  const RayLists& whole_lists();  ///< of all faces
   const VisibleFaceSearch& face_search();
 
   const Scene& scene;
@@ -27,10 +28,13 @@ struct Viewpoint::Kept {
   Options options;
   Executor executor;
   MapFaces faces;
-  MadeOnce<FittedView> near;
-  MadeOnce<WholeView> whole;
   VisiblePoints visible_points;
   MadeOnce<VisibleFaceSearch> seen_faces;
+  MadeOnce<std::shared_ptr<const FacePlanesTable>> planes;
+  MadeOnce<RayLists> near, whole;
+
+ private:
+  std::unique_ptr<RayLists> make_lists(bool keep_all);
 };
 
 /// Throws Error unless there are as many answers as questions.

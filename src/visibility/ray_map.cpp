@@ -1,10 +1,10 @@
-#include "visibility/fitted_view.h"
+#include "visibility/ray_map.h"
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "map/face_planes.h"
-#include "map/light_projection.h"
 #include "map/list_point.h"
 #include "map/map_faces.h"
 #include "math/dvector.h"
@@ -18,17 +18,13 @@ namespace {
 // Entries given to the filter at a time: a list is front to back, and the first blocker mostly among the first few.
 constexpr std::size_t kChunk = 16;
 
-SpaceVector frame_of(const Scene& scene, const Vector& origin) {
-  return SpaceVector::looking_along(origin, sight_of_light(scene, origin));
-}
-
 }  // namespace
 
-FittedView::FittedView(const MapFaces& faces, const Vector& origin, bool keep_all)
-    : Camera(faces, frame_of(faces.all(), origin), light_projection(faces.all(), frame_of(faces.all(), origin), {}),
-             keep_all) {}
+RayMap::RayMap(const MapFaces& faces, const SpaceVector& frame, const Projection& projection,
+               std::shared_ptr<const FacePlanesTable> planes, bool keep_all)
+    : Camera(faces, frame, projection, std::move(planes), keep_all) {}
 
-std::optional<FaceId> FittedView::first_blocker(const Vector& point, std::uint32_t skip) const {
+std::optional<FaceId> RayMap::first_blocker(const Vector& point, std::uint32_t skip) const {
   const GivenPoint given{point};
   const DVector offset = offset_from(position(), given);
   const std::optional<Texel> texel = texel_of(offset);
