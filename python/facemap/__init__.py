@@ -7,24 +7,28 @@
 """
 
 from ._facemap import __version__
-from .camera import Camera
+from .camera import Camera, Rays
 from .errors import Error, LoadError
 from .frame import Frame, save_png
 from .generated import generate
 from .light import Light
 from .scene import Scene, load
-from .view import AllHits, Nearest, View, visibility
+from .view import HIDDEN_REASONS, AllHits, CoveredPiece, Nearest, View, VisibleFaces, visibility
 
 __all__ = [
     "AllHits",
     "Camera",
+    "CoveredPiece",
     "Error",
     "Frame",
+    "HIDDEN_REASONS",
     "Light",
     "LoadError",
     "Nearest",
+    "Rays",
     "Scene",
     "View",
+    "VisibleFaces",
     "__version__",
     "generate",
     "load",

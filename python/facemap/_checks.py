@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import operator
 import os
-from typing import Any, Iterable, Optional, Sequence, Tuple
+from typing import Any, Iterable, Iterator, Optional, Sequence, Tuple
 
 import numpy as np
+
+from . import _facemap
+from .errors import Error
 
 Triple = Tuple[float, float, float]
 
@@ -92,6 +96,21 @@ def whole(name: str, value: Any, least: int, most: int) -> int:
     if not least <= found <= most:
         raise ValueError(f"{name}: {found} is none of {least} .. {most}")
     return found
+
+
+def progress(value: Any) -> Any:
+    """None or something to call."""
+    if value is not None and not callable(value):
+        raise TypeError(f"progress: something to call is needed, not {_shown(value)}")
+    return value
+
+
+def core_of(scene: Any) -> Any:
+    """A Scene's own scene."""
+    core = getattr(scene, "_core", None)
+    if not isinstance(core, _facemap.Scene):
+        raise TypeError(f"scene: a Scene is needed, not {_shown(scene)}")
+    return core
 
 
 def truth(name: str, value: Any) -> bool:
@@ -184,6 +203,15 @@ def optional(check: Any, name: str, value: Optional[Any]) -> Any:
     return None if value is None else check(name, value)
 
 
+@contextlib.contextmanager
+def named(name: str) -> Iterator[None]:
+    """What the library says of the argument gets its name."""
+    try:
+        yield
+    except Error as error:
+        raise Error(f"{name}: {error}") from error
+
+
 def _shown(value: Any) -> str:
     shown = f"{type(value).__name__}"
     return f"{value!r}" if isinstance(value, (int, float, str, type(None))) and len(repr(value)) < 60 else shown
@@ -196,7 +224,5 @@ def _color_from_text(name: str, value: str) -> Triple:
         levels = bytes.fromhex(value[1:])
     except ValueError as error:
         raise ValueError(f"{name}: {value!r} is not a colour #rrggbb") from error
-    from . import _facemap
-
     pixel = _facemap.Image.from_levels(np.frombuffer(levels, np.uint8).reshape(1, 1, 3)).color[0, 0]
     return float(pixel[0]), float(pixel[1]), float(pixel[2])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, Optional, Sequence
+from typing import Any, NamedTuple, Optional, Sequence
 
 import numpy as np
 
@@ -12,6 +12,13 @@ from . import _checks, _facemap
 from .light import degrees
 
 _LENSES = ("surface", "plane", "orthographic", "equirect", "cube", "opencv", "opencv-fisheye")
+
+
+class Rays(NamedTuple):
+    """What ``Camera.rays`` gives."""
+
+    origin: np.ndarray
+    directions: np.ndarray
 
 
 @dataclass
@@ -82,6 +89,41 @@ class Camera:
         return cls(lens="opencv-fisheye" if fisheye else "opencv", matrix=matrix, distortion=distortion, pose=pose,
                    name=name)
 
+    def rays(self, scene: Any, width: int = 1024, height: int = 1024) -> Rays:
+        """The rays through the centres of a picture's pixels: the very numbers that ``Scene.render`` asks about.
+
+        Parameters
+        ----------
+        scene : Scene
+            For what is made up.
+        width, height : int
+            Pixels.
+
+        Returns
+        -------
+        origin : (3,) float32
+            World units.
+        directions : (height, width, 3) float32
+            Of about unit length; zero where the lens sees nothing.
+
+        Raises
+        ------
+        ValueError
+            For an orthographic camera: its rays have no common origin.
+
+        Examples
+        --------
+        >>> origin, directions = camera.rays(scene, 640, 480)
+        >>> facemap.View(scene, origin).nearest(directions).face     # Frame.face_id
+        """
+        if self.lens == "orthographic":
+            raise ValueError("lens: the rays of an orthographic camera have no common origin")
+        width = _checks.whole("width", width, 1, 32768)
+        height = _checks.whole("height", height, 1, 32768)
+        view = self._complete(_checks.core_of(scene), width, height, None)
+        with _checks.named("camera"):
+            return Rays(np.array(view.position, np.float32), view.directions(width, height))
+
     def _complete(self, scene: _facemap.Scene, width: int, height: int,
                   up: Optional[Sequence[float]]) -> _facemap.CompleteCamera:
         wanted = _facemap.WantedCamera()
@@ -122,7 +164,9 @@ class Camera:
             wanted.set_lens(_cube(_checks.member("layout", self.layout, _facemap.CubeLayout), width, height))
         else:
             make = _facemap.Lens.opencv_fisheye if lens == "opencv-fisheye" else _facemap.Lens.opencv
-            wanted.set_lens(make(_camera_matrix(self.matrix), _distortion(self.distortion), width, height))
+            matrix, distortion = _camera_matrix(self.matrix), _distortion(self.distortion)
+            with _checks.named("matrix, distortion"):
+                wanted.set_lens(make(matrix, distortion, width, height))
 
     def _refuse_what_does_not_go(self, lens: str) -> None:
         if self.matrix is None and lens.startswith("opencv"):

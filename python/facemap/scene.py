@@ -14,6 +14,7 @@ from .frame import Frame
 from .light import Light
 
 _MOST_VERTICES = 2**32 - 1  # indices are uint32, and the last one means "none"
+_MOST_PIXELS = 1 << 28  # as of the program
 
 
 class Scene:
@@ -82,17 +83,15 @@ class Scene:
         return scene
 
     def _begin(self, core: _facemap.Scene) -> None:
-        self._parts: List[Tuple[_facemap.Scene, np.ndarray]] = [(core, np.eye(4))]
-        self._joined: Optional[_facemap.Scene] = core
+        self._parts: List[_facemap.Scene] = [core]  # joined when the sum is needed
         self.lights: List[Light] = [Light._from_core(light) for light in core.lights]
         self.cameras: List[Camera] = [Camera._from_core(camera) for camera in core.cameras]
 
     @property
     def _core(self) -> _facemap.Scene:
-        if self._joined is None:
-            self._joined = _facemap.joined(self._parts, 0)
-            self._parts = [(self._joined, np.eye(4))]
-        return self._joined
+        if len(self._parts) > 1:
+            self._parts = [_facemap.joined(self._parts, 0)]
+        return self._parts[0]
 
     def add(self, other: Union[Scene, Any], transform: Any = None) -> Scene:
         """Adds another scene's or mesh's faces behind those that are there, with their materials.
@@ -115,17 +114,18 @@ class Scene:
         Raises
         ------
         TypeError, ValueError
-            For what is no mesh, and a matrix of another shape, that is not finite or not affine; Error for one that
-            flattens the mesh, when the scene is next used.
+            For what is no mesh, and a matrix of another shape, that is not finite or not affine, or flattens the mesh.
 
         Examples
         --------
         >>> scene.add(chair, [[1, 0, 0, 2], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
         """
-        matrix = np.eye(4) if transform is None else _checks.transform("transform", transform)
         added = (other if isinstance(other, Scene) else Scene.from_object(other))._core  # it may be this one
-        self._parts.append((added, matrix))
-        self._joined = None
+        if transform is not None:
+            matrix = _checks.transform("transform", transform)
+            with _checks.named("transform"):
+                added = _facemap.moved(added, matrix, 0)
+        self._parts.append(added)
         return self
 
     @property
@@ -257,6 +257,9 @@ class Scene:
         core = self._core
         width = _checks.whole("width", width, 1, 32768)
         height = _checks.whole("height", height, 1, 32768)
+        if width * height > _MOST_PIXELS:
+            raise ValueError(f"width, height: {width}x{height} are more than {_MOST_PIXELS} pixels")
+        progress = _checks.progress(progress)
         names, settings = render_options(width, height, samples, planes, options)
         painter, world_up = None, None
         for camera in cameras:

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import contextlib
-from typing import Any, Callable, Iterator, NamedTuple, Optional, Tuple
+from typing import Any, Callable, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 
 from . import _checks, _facemap
-from .errors import Error
 from .scene import Scene
 
 MOST_TEXTURE_PIXELS = 1 << 26
@@ -28,6 +26,56 @@ class AllHits(NamedTuple):
     begins: np.ndarray
     faces: np.ndarray
     distances: np.ndarray
+
+
+class VisibleFaces(NamedTuple):
+    """What ``View.visible_faces`` gives: an answer a face, none of them ever wrong."""
+
+    states: np.ndarray
+    """(M,) uint8: 0 hidden, 1 visible, 2 undecided."""
+    witnesses: np.ndarray
+    """(M, 3) float32: a direction in which ``View.nearest`` names the face, for visible ones; else zero."""
+    reasons: np.ndarray
+    """(M,) uint8: why a face is hidden, an index into ``HIDDEN_REASONS``."""
+
+    @property
+    def visible(self) -> np.ndarray:
+        """(M,) bool."""
+        return self.states == 1
+
+    @property
+    def hidden(self) -> np.ndarray:
+        """(M,) bool."""
+        return self.states == 0
+
+    @property
+    def undecided(self) -> np.ndarray:
+        """(M,) bool."""
+        return self.states == 2
+
+
+HIDDEN_REASONS = ("none", "left out", "edge-on", "covered")
+"""Why a face is hidden: it is not, or not known; it is odd, or its material takes it away; the origin lies on its
+plane; others stand before it (``View.covered_pieces``)."""
+
+
+class CoveredPiece(NamedTuple):
+    """A piece of a hidden face, and what hides it.
+
+    Take the face `cover` and all faces that are reached from it across edges that the piece meets. Each such edge
+    belongs to two of them, turned the same way; each of them stands before the piece's face wherever it is seen in the
+    piece, so none of their outlines passes through; and `cover` is seen there along `direction`. So one of them is seen
+    in every direction of the piece.
+    """
+
+    scale: int
+    """Corners are in parts of it: a power of two."""
+    corners: np.ndarray
+    """(3, 3) uint64: each as a mean of the face's corners, with these weights."""
+    cover: int
+    """A face."""
+    direction: np.ndarray
+    """(3,) float32: from the origin, strictly inside the piece."""
 
 
 class View:
@@ -63,7 +111,7 @@ class View:
 
     def __init__(self, scene: Scene, origin: Any, threads: int = 0, *, cut_outs: bool = True,
                  max_texture_pixels: int = MOST_TEXTURE_PIXELS) -> None:
-        self._scene = _core_of(scene)
+        self._scene = _checks.core_of(scene)
         self._origin = _checks.triple("origin", origin)
         self._options = (_checks.threads(threads), _checks.truth("cut_outs", cut_outs),
                          _checks.whole("max_texture_pixels", max_texture_pixels, 0, 2**63 - 1))
@@ -117,7 +165,7 @@ class View:
         """
         flat, shape = _flat("points", points)
         own = _own_faces(faces, shape, self._scene.face_count)
-        with _named("points"):
+        with _checks.named("points"):
             return self._core.visible(flat, own, _tolerance(tolerance)).reshape(shape)
 
     def blocked_by(self, points: Any, faces: Any = None) -> np.ndarray:
@@ -138,7 +186,7 @@ class View:
         """
         flat, shape = _flat("points", points)
         own = _own_faces(faces, shape, self._scene.face_count)
-        with _named("points"):
+        with _checks.named("points"):
             return self._core.blocked_by(flat, own).reshape(shape)
 
     def nearest(self, directions: Any) -> Nearest:
@@ -192,6 +240,59 @@ class View:
         flat, _ = _flat("directions", directions)
         return AllHits(*self._core.all_hits(flat))
 
+    def visible_faces(self) -> VisibleFaces:
+        """Which faces are visible, each with a direction that sees it, and which are hidden.
+
+        A face is visible if some direction of float32 numbers meets it first, strictly inside it; it is hidden if no
+        direction of real numbers does. No answer is ever wrong; few faces are undecided.
+
+        Returns
+        -------
+        VisibleFaces
+            Of arrays ``states``, ``witnesses`` and ``reasons``, one element a face of the scene; ``visible``,
+            ``hidden`` and ``undecided`` are masks.
+
+        Examples
+        --------
+        >>> found = view.visible_faces()
+        >>> scene.faces[found.visible]
+        """
+        return VisibleFaces(*self._core.visible_faces())
+
+    def visible_vertices(self) -> np.ndarray:
+        """Whether each vertex of the scene is visible, as ``visible`` has it.
+
+        Returns
+        -------
+        (N,) bool
+
+        Examples
+        --------
+        >>> scene.vertices[view.visible_vertices()]
+        """
+        return self._core.visible_vertices().view(np.bool_)
+
+    def covered_pieces(self, face: int) -> List[CoveredPiece]:
+        """Why ``visible_faces`` calls a face hidden because it is covered: pieces that make up the face, each with what
+        covers it. None for other faces.
+
+        Parameters
+        ----------
+        face : int
+
+        Raises
+        ------
+        TypeError, IndexError
+            If it is not one of the scene's.
+
+        Examples
+        --------
+        >>> {piece.cover for piece in view.covered_pieces(12)}
+        """
+        number = int(_checks.indices("face", _checks.whole("face", face, -2**63, 2**63 - 1), self._scene.face_count))
+        return [CoveredPiece(scale, np.array(corners, np.uint64), cover, np.array(direction, np.float32))
+                for scale, corners, cover, direction in self._core.covered_pieces(number)]
+
     def __reduce__(self) -> Tuple[Any, ...]:
         return _view_from, (self._scene, self._origin, self._options)
 
@@ -244,26 +345,20 @@ def visibility(scene: Scene, origins: Any, points: Any, packed: bool = False,
     >>> seen = facemap.visibility(scene, lamps, desks)
     >>> seen.any(axis=0)                        # desks that some lamp reaches
     """
-    core = _core_of(scene)
+    core = _checks.core_of(scene)
     from_flat, from_shape = _flat("origins", origins)
     flat, shape = _flat("points", points)
     own = _own_faces(faces, shape, core.face_count)
     _checks.finite("origins", from_flat)
     is_packed = _checks.truth("packed", packed)
-    with _named("points"):
+    with _checks.named("points"):
         bits = _facemap.visibility_bits(
             core, from_flat, flat, own, _tolerance(tolerance), _checks.threads(threads),
             _checks.whole("memory", memory, 0, 2**63 - 1), _checks.truth("cut_outs", cut_outs),
-            _checks.whole("max_texture_pixels", max_texture_pixels, 0, 2**63 - 1), progress)
+            _checks.whole("max_texture_pixels", max_texture_pixels, 0, 2**63 - 1), _checks.progress(progress))
     if is_packed:
         return bits.reshape(from_shape + bits.shape[1:])
     return np.unpackbits(bits, axis=1, count=len(flat), bitorder="little").view(np.bool_).reshape(from_shape + shape)
-
-
-def _core_of(scene: Any) -> _facemap.Scene:
-    if not isinstance(scene, Scene):
-        raise TypeError(f"scene: a Scene is needed, not {type(scene).__name__}")
-    return scene._core
 
 
 def _view_from(scene: _facemap.Scene, origin: Tuple[float, float, float], options: Tuple[int, bool, int]) -> View:
@@ -291,12 +386,3 @@ def _tolerance(value: Any) -> float:
     if found < 0 or not np.isfinite(np.float32(found)):
         raise ValueError(f"tolerance: {found} is below 0 or too large for float32")
     return found
-
-
-@contextlib.contextmanager
-def _named(name: str) -> Iterator[None]:
-    """What the library says of the argument gets its name."""
-    try:
-        yield
-    except Error as error:
-        raise Error(f"{name}: {error}") from error

@@ -50,12 +50,15 @@ py::array borrowed(const Number* numbers, std::vector<py::ssize_t> shape, const 
   return array;
 }
 
-/// An array that takes over what a call has made.
-template <typename Number>
-py::array_t<Number> given(std::vector<Number>&& numbers) {
-  auto* const kept = new std::vector<Number>(std::move(numbers));
-  const py::capsule owner(kept, [](void* vector) { delete static_cast<std::vector<Number>*>(vector); });
-  return py::array_t<Number>(static_cast<py::ssize_t>(kept->size()), kept->data(), owner);
+/// An array of rows of numbers that takes over what a call has made: of shape (n,) or (n, numbers of an element).
+template <typename Number, typename Element>
+py::array_t<Number> given(std::vector<Element>&& elements) {
+  static_assert(sizeof(Element) % sizeof(Number) == 0 && std::is_trivially_copyable_v<Element>);
+  auto* const kept = new std::vector<Element>(std::move(elements));
+  const py::capsule owner(kept, [](void* vector) { delete static_cast<std::vector<Element>*>(vector); });
+  std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(kept->size())};
+  if (sizeof(Element) != sizeof(Number)) shape.push_back(py::ssize_t{sizeof(Element) / sizeof(Number)});
+  return py::array_t<Number>(std::move(shape), reinterpret_cast<const Number*>(kept->data()), owner);
 }
 
 /// A new array's memory.

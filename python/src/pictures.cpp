@@ -1,4 +1,5 @@
 #include <facemap/renderer.h>
+#include <facemap/space_vector.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -54,6 +55,28 @@ View complete_view(const Scene& scene, const WantedCamera& wanted, const Triple&
     view.up = Vector(view.up.z, view.up.x, view.up.y);
   }
   return view;
+}
+
+Lens lens_of(const View& view, int width, int height) {
+  return view.lens ? *view.lens : Lens(Projection(view.projection, view.field_angle, width, height));
+}
+
+/// The directions of the rays through the pixels' centres; zero where the lens has none.
+py::array_t<float> directions(const View& view, int width, int height) {
+  const auto frame = SpaceVector::looking_at(view.position, view.look_at, view.up);
+  const Lens lens = lens_of(view, width, height);
+  py::array_t<float> rows({py::ssize_t{height}, py::ssize_t{width}, py::ssize_t{3}});
+  float* out = rows.mutable_data();
+  call([&] {
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const std::optional<DVector> local = lens.direction({x + 0.5, y + 0.5});
+        const Vector direction = local ? Vector(frame.world_from_local(*local)) : Vector(0);
+        for (int k = 0; k < 3; ++k) *out++ = direction[k];
+      }
+    }
+  });
+  return rows;
 }
 
 using Pose = std::array<std::array<double, 4>, 3>;
@@ -197,6 +220,7 @@ void bind_cameras(py::module_& module) {
       .def_property_readonly("position", [](const View& v) { return triple_of(v.position); })
       .def_property_readonly("look_at", [](const View& v) { return triple_of(v.look_at); })
       .def_property_readonly("up", [](const View& v) { return triple_of(v.up); })
+      .def("directions", &directions)
       .def_readonly("height", &View::height);
   module.def("complete_view", &complete_view, py::arg("scene"), py::arg("camera"), py::arg("up"));
   module.def("view_of_pose", &view_of_pose, py::arg("pose"));

@@ -84,23 +84,18 @@ Affine affine_of(const Matrix& m) {
   return {column(0), column(1), column(2), column(3)};
 }
 
-/// A scene and where it stands in the sum.
-using Part = std::pair<SharedScene, Matrix>;
+SharedScene moved(const SharedScene& scene, const Matrix& matrix, int threads) {
+  SharedScene result;
+  call_interruptibly(
+      [&](const Report&) { result = scene_of(transformed(model_of(*scene), affine_of(matrix)), threads); });
+  return result;
+}
 
-SharedScene joined(const std::vector<Part>& parts, int threads) {
+SharedScene joined(const std::vector<SharedScene>& parts, int threads) {
   SharedScene scene;
   call_interruptibly([&](const Report&) {
-    Model sum;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      const Affine transform = affine_of(parts[i].second);
-      Model model = model_of(*parts[i].first);
-      if (transform != Affine()) model = transformed(std::move(model), transform);
-      if (i == 0) {
-        sum = std::move(model);
-      } else {
-        append(sum, std::move(model));
-      }
-    }
+    Model sum = model_of(*parts.at(0));
+    for (std::size_t i = 1; i < parts.size(); ++i) append(sum, model_of(*parts[i]));
     scene = scene_of(std::move(sum), threads);
   });
   return scene;
@@ -214,6 +209,7 @@ void bind_scenes(py::module_& module) {
       py::arg("vertices").noconvert(), py::arg("faces").noconvert(), py::arg("normals").noconvert(),
       py::arg("texture_coordinates").noconvert(), py::arg("colours").noconvert(), py::arg("colour"),
       py::arg("threads"));
+  module.def("moved", &moved, py::arg("scene"), py::arg("transform"), py::arg("threads"));
   module.def("joined", &joined, py::arg("parts"), py::arg("threads"));
 }
 

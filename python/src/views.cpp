@@ -1,5 +1,6 @@
 #include <facemap/viewpoint.h>
 #include <facemap/visibility.h>
+#include <facemap/visible_faces.h>
 #include <pybind11/stl.h>
 
 #include <memory>
@@ -72,7 +73,32 @@ class KeptView {
     AllHits hits;
     ask(rays.size(), [&](const Viewpoint::Progress& p) { hits = view_.all_hits(rays, p); });
     std::vector<std::int64_t> begins(hits.begins.begin(), hits.begins.end());
-    return py::make_tuple(given(std::move(begins)), given(std::move(hits.faces)), given(std::move(hits.distances)));
+    return py::make_tuple(given<std::int64_t>(std::move(begins)), given<FaceId>(std::move(hits.faces)),
+                          given<float>(std::move(hits.distances)));
+  }
+
+  py::tuple visible_faces() const {
+    VisibleFaces found;
+    ask(kFew + 1, [&](const Viewpoint::Progress& p) { found = view_.visible_faces(p); });
+    return py::make_tuple(given<std::uint8_t>(std::move(found.faces)), given<float>(std::move(found.witnesses)),
+                          given<std::uint8_t>(std::move(found.reasons)));
+  }
+
+  py::array_t<std::uint8_t> visible_vertices() const {
+    std::vector<std::uint8_t> found;
+    ask(kFew + 1, [&](const Viewpoint::Progress& p) { found = view_.visible_vertices(p); });
+    return given<std::uint8_t>(std::move(found));
+  }
+
+  /// Tuples of the fields of CoveredPiece.
+  py::list covered_pieces(FaceId face) const {
+    std::vector<CoveredPiece> pieces;
+    call_interruptibly([&](const Report&) { pieces = view_.covered_pieces(face); });
+    py::list list;
+    for (const CoveredPiece& piece : pieces) {
+      list.append(py::make_tuple(piece.scale, piece.corners, piece.cover, triple_of(piece.direction)));
+    }
+    return list;
   }
 
   std::size_t memory_bytes() const { return view_.memory_bytes(); }
@@ -120,6 +146,9 @@ void bind_views(py::module_& module) {
       .def("blocked_by", &KeptView::blocked_by, py::arg("points").noconvert(), py::arg("faces").noconvert())
       .def("nearest", &KeptView::nearest, py::arg("directions").noconvert())
       .def("all_hits", &KeptView::all_hits, py::arg("directions").noconvert())
+      .def("visible_faces", &KeptView::visible_faces)
+      .def("visible_vertices", &KeptView::visible_vertices)
+      .def("covered_pieces", &KeptView::covered_pieces, py::arg("face"))
       .def_property_readonly("memory_bytes", &KeptView::memory_bytes);
 
   module.def(

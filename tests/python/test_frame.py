@@ -141,6 +141,19 @@ def test_cameras_one_after_the_other_share_the_lights_work(bust):
     assert [f.png() for f in frames] == [bust.render(c, width=32, height=32).png() for c in cameras]
 
 
+@pytest.mark.parametrize("lens", ["surface", "plane", "equirect", "cube", "opencv", "opencv-fisheye"])
+def test_a_views_answers_along_a_cameras_rays_are_the_pictures(bust, lens):
+    matrix = (40, 40, 47, 31) if lens.startswith("opencv") else None
+    camera = facemap.Camera((0.5, 1.5, 2), lens=lens, matrix=matrix)
+    origin, directions = camera.rays(bust, 96, 64)
+    view = facemap.View(bust, origin)
+    face, distance = view.nearest(directions)
+    frame = bust.render(camera, width=96, height=64)
+    assert np.array_equal(face, frame.face_id) and np.array_equal(distance, frame.range)
+    with pytest.raises(ValueError, match="lens"):
+        facemap.Camera(lens="orthographic").rays(bust)
+
+
 def test_arrays_become_pictures(tmp_path):
     levels = np.arange(48, dtype=np.uint8).reshape(4, 4, 3) * 5
     facemap.save_png(tmp_path / "a.png", levels)

@@ -39,6 +39,32 @@ def test_own_faces(above):
     assert above.visible(below, faces=[0])[0] and not above.visible(below, faces=[-1])[0]
 
 
+def test_tolerance(above):
+    assert above.visible([0.5, -1e-3, 0.2], tolerance=0.01)
+
+
+def test_what_hides_a_point_is_named(above):
+    assert above.blocked_by([[0.5, -1, 0.2], [0.2, -1, 0.5], [0.5, 0, 0.2], [0, 9, 0]]).tolist() == [0, 1, -1, -1]
+    assert above.blocked_by([0.5, -1, 0.2], faces=0) == -1
+
+
+def test_visible_and_hidden_faces_come_with_reasons(floor):
+    floor.add(floor, np.diag([0.5, 1, 0.5, 1]) + [[0] * 4, [0, 0, 0, -1], [0] * 4, [0] * 4])
+    view = facemap.View(floor, (0, 1, 0))
+    found = view.visible_faces()
+    assert found.states.tolist() == [1, 1, 0, 0]
+    assert found.visible.tolist() == [True, True, False, False]
+    assert np.array_equal(found.hidden, ~found.visible) and not found.undecided.any()
+    assert view.nearest(found.witnesses[:2]).face.tolist() == [0, 1]
+    assert [facemap.HIDDEN_REASONS[i] for i in found.reasons] == ["none", "none", "covered", "covered"]
+    assert view.visible_vertices().tolist() == [True] * 4 + [False] * 4
+    pieces = view.covered_pieces(2)
+    assert pieces and all(piece.cover in (0, 1) and piece.corners.shape == (3, 3) for piece in pieces)
+    assert view.covered_pieces(0) == []
+    with pytest.raises(IndexError, match="face: 4 "):
+        view.covered_pieces(4)
+
+
 def test_arrays_that_fit_are_not_copied():
     points = np.zeros((10, 3), np.float32)
     assert _checks.floats("points", points) is points
@@ -116,6 +142,8 @@ def test_a_view_keeps_its_scene_as_it_was(floor):
     (lambda v: v.visible([[0, 0, 1]], faces=[0.0]), TypeError, "faces"),
     (lambda v: v.visible([[0, 0, 1]], tolerance=-1), ValueError, "tolerance"),
     (lambda v: v.visible([[0, 0, 1]], tolerance="a"), TypeError, "tolerance"),
+    (lambda v: v.blocked_by([[np.inf, 0, 1]]), ValueError, "points: .*finite"),
+    (lambda v: v.covered_pieces(0.5), TypeError, "face"),
     (lambda v: v.nearest([[1, 2, 3, 4]]), ValueError, "directions: the shape"),
     (lambda v: v.all_hits(np.zeros((2, 2))), ValueError, "directions: the shape"),
     (lambda v: facemap.View(7, (0, 0, 0)), TypeError, "scene"),

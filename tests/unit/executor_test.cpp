@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <numeric>
 #include <set>
@@ -14,6 +15,10 @@
 
 #if defined(__SSE2__)
 #include <immintrin.h>
+#endif
+#if defined(__linux__)
+#include <sys/wait.h>
+#include <unistd.h>
 #endif
 
 #include "parallel/thread_pool.h"
@@ -167,6 +172,28 @@ TEST(ForRanges, PiecesAreInOrderAndWhole) {
     }
   }
 }
+
+#if defined(__linux__) && !defined(__SANITIZE_THREAD__)
+TEST(Executor, AForkedProcessDoesItsTasksByItself) {
+  auto executor = std::make_unique<Executor>(3);
+  executor->for_each(100, [](std::size_t, int) {});
+  const ::pid_t child = ::fork();
+  if (child == 0) {
+    std::size_t done = 0;  // by one thread
+    const auto count = [&](std::size_t, int worker) { done += worker == 0 ? 1 : 1000; };
+    executor->for_each(100, count);
+    Executor(2).for_each(100, count);
+    executor.reset();
+    ::_exit(done == 200 ? 0 : 1);
+  }
+  int status = -1;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  std::atomic<int> done = 0;
+  executor->for_each(100, [&](std::size_t, int) { ++done; });
+  EXPECT_EQ(done, 100);
+}
+#endif
 
 TEST(Executor, ZeroMeansAsManyAsMayRun) { EXPECT_GE(Executor(0).threads(), 1); }
 
