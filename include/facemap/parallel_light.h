@@ -36,6 +36,11 @@ class ParallelLight : public ParallelMap {
   /// point.
   bool is_blocked(const SurfacePoint& point, Counters* counters = nullptr) const;
 
+  /// The same for a float32 point: face `skip` is passed over if it is not kNoFace, wherever the point lies, and so are
+  /// faces from whose plane it is no farther than `tolerance` (world units). Throws Error if the point or the tolerance
+  /// is not finite, or the tolerance is below 0. No bounds check of the face.
+  bool is_blocked(const Vector& point, FaceId skip, float tolerance = 0, Counters* counters = nullptr) const;
+
   /// The same for every point within `error` (world units) of `point` in each coordinate at once, face `skip` passed
   /// over if it is not kNoFace: quick, and without an answer where they may differ, or where a hole may matter.
   std::optional<bool> is_blocked_around(const DVector& point, double error, FaceId skip,

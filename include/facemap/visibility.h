@@ -26,4 +26,12 @@ void visibility(const Scene& scene, std::span<const Vector> origins, const Viewp
                 std::span<std::uint8_t> bits, const VisibilityOptions& options = {},
                 const Viewpoint::Progress& progress = {});
 
+/// Which points see infinitely far along which directions (of any length): row i of `bits` is about direction i, as
+/// above; a point's bit is 1 if no face stands strictly between it and what is infinitely far along the direction. So
+/// the sky and suns are asked about: parallel light that goes the other way (ParallelLight). Throws Error as
+/// visibility() does, and if a direction is zero or not finite.
+void visibility_along(const Scene& scene, std::span<const Vector> directions, const Viewpoint::Targets& targets,
+                      std::span<std::uint8_t> bits, const VisibilityOptions& options = {},
+                      const Viewpoint::Progress& progress = {});
+
 }  // namespace facemap

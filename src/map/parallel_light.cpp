@@ -1,6 +1,7 @@
 #include <facemap/error.h>
 #include <facemap/parallel_light.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "map/face_planes.h"
@@ -32,6 +33,10 @@ ParallelFrame::Place place_in(const ParallelFrame& frame, const GivenPoint& p) {
 bool has_tolerance(const TruePoint&) { return false; }
 bool has_tolerance(const GivenPoint& p) { return p.tolerance > 0; }
 
+// Whether the point need not lie on the face that is passed over.
+bool may_be_anywhere(const TruePoint&) { return false; }
+bool may_be_anywhere(const GivenPoint& p) { return p.on_face == nullptr; }
+
 }  // namespace
 
 /// A place, and which faces do not count there.
@@ -39,42 +44,44 @@ struct ParallelLight::Asked {
   ParallelFrame::Place place;
   std::uint32_t skip = kSkipNone;
   bool has_tolerance = false;
+  bool may_be_behind_skip = false;  ///< by any distance
 };
 
 // The one walk through a list, front to back, by all who ask. blocks_exactly(face) is called where the filter leaves a
 // face open; is_there(face) says of one that blocks whether it has no hole at the crossing. With a tolerance a face
 // that the filter takes for a blocker, or one that is known by the cut alone, may be within it: then no answer is taken
-// from either.
+// from either. Nor is one from the cut where the face that is passed over may be what cuts.
 template <class IsThere, class BlocksExactly>
 bool ParallelLight::walk(const Parts& of_faces, const Scene& all, const Asked& asked, Counters* counters,
                          const IsThere& is_there, const BlocksExactly& blocks_exactly) const {
   const ParallelFrame& frame = of_faces.frame;
   const ParallelFaces& faces = of_faces.faces;
   const ParallelFrame::Place& place = asked.place;
-  Parts::Candidates candidates = of_faces.candidates(all, place);
+  const Parts::Candidates candidates = of_faces.candidates(all, place);
   const bool is_past_cut = frame.depth(place.at.z) > candidates.cut * (1.0 + Texels::kDepthMargin);
-  if (is_past_cut && !asked.has_tolerance) {
+  if (is_past_cut && !asked.has_tolerance && !asked.may_be_behind_skip) {
     if (counters != nullptr) ++counters->by_float;
     return true;
   }
   const double reach = frame.depth(place.at.z + place.error) * (1 + Texels::kDepthMargin);
   const auto filtered = of_faces.asked(candidates, place);
-  if (is_past_cut) candidates = {all.kept_faces(), candidates.cut, false};
-  for (const std::uint32_t id : candidates.ids) {
-    if (candidates.is_list && faces.nearest(id) > reach) return false;
-    if (id == asked.skip) continue;
+  const auto stands_between = [&](std::uint32_t id) {
+    if (id == asked.skip) return false;
     if (filtered) {
       const ParallelFaces::Sides sides = faces.sides(id, *filtered);
       const bool is_clear = sides.surely_outside || sides.beyond < 0;
       const bool is_sure = is_clear || (sides.surely_inside && sides.beyond > 0 && !asked.has_tolerance);
       if (is_sure && counters != nullptr) ++counters->by_float;
-      if (is_clear) continue;
-      if (is_sure && is_there(id)) return true;
-      if (is_sure) continue;
+      if (is_sure) return !is_clear && is_there(id);
     }
-    if (blocks_exactly(id, faces.side(id)) && is_there(id)) return true;
+    return blocks_exactly(id, faces.side(id)) && is_there(id);
+  };
+  for (const std::uint32_t id : candidates.ids) {
+    if (candidates.is_list && faces.nearest(id) > reach) break;
+    if (stands_between(id)) return true;
   }
-  return false;
+  const std::span<const std::uint32_t> kept = all.kept_faces();
+  return is_past_cut && std::any_of(kept.begin(), kept.end(), stands_between);
 }
 
 template <class Point>
@@ -82,13 +89,23 @@ bool ParallelLight::is_blocked(const Point& point, const DVector& place, std::ui
   const auto blocks_exactly = [&](std::uint32_t id, int side) {
     return blocks_along(triangle_of(scene(), id), side, direction(), point, counters);
   };
-  const Asked asked{place_in(parts().frame, point), skip, has_tolerance(point)};
+  const bool may_be_behind_skip = skip != kSkipNone && may_be_anywhere(point);
+  const Asked asked{place_in(parts().frame, point), skip, has_tolerance(point), may_be_behind_skip};
   const auto always = [](std::uint32_t) { return true; };
   if (walk(parts(), solid_faces(), asked, counters, always, blocks_exactly)) return true;
   if (!has_cut_outs()) return false;
-  const Asked asked_of_cut{place_in(cut_parts().frame, point), skip, has_tolerance(point)};
+  const Asked asked_of_cut{place_in(cut_parts().frame, point), skip, has_tolerance(point), may_be_behind_skip};
   const auto is_there = [&](std::uint32_t id) { return cut_outs().is_there(id, place, DVector(direction())); };
   return walk(cut_parts(), cut_outs().cut(), asked_of_cut, counters, is_there, blocks_exactly);
+}
+
+bool ParallelLight::is_blocked(const Vector& point, FaceId skip, float tolerance, Counters* counters) const {
+  const FloatingPointMode mode;
+  if (!is_finite(point)) throw Error("a point to be lit is not finite");
+  if (!(tolerance >= 0) || !std::isfinite(tolerance)) throw Error("a tolerance is 0 or more, and finite");
+  GivenPoint given{point};
+  given.tolerance = tolerance;
+  return is_blocked(given, DVector(point), skip == kNoFace ? kSkipNone : static_cast<std::uint32_t>(skip), counters);
 }
 
 std::optional<bool> ParallelLight::is_blocked_around(const DVector& point, double error, FaceId skip,
