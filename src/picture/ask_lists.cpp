@@ -30,10 +30,26 @@ bool is_blocked_by(const Scene& scene, const Vector& light, const AskedPoints& p
   return verdict > 0;
 }
 
+// Doubles decide almost all pairs of given points, many at a time; the others stay.
+void decide_given(const Scene& scene, const Vector& light, const float* points, PointsOnLists& listed,
+                  UnsetVector<std::uint8_t>& dark) {
+  const Mesh& mesh = scene.mesh();
+  const simd::GivenPoints given{points, mesh.triangles[0].data(), &mesh.positions[0].x, {light.x, light.y, light.z}};
+  std::erase_if(listed.pairs, [&](const simd::GivenPair& pair) { return dark[pair.point] != 0; });
+  listed.verdicts.resize(listed.pairs.size());
+  simd::decide_pairs(given, listed.pairs.data(), listed.pairs.size(), listed.verdicts.data());
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < listed.pairs.size(); ++k) {
+    if (listed.verdicts[k] == 1) dark[listed.pairs[k].point] = 1;
+    if (listed.verdicts[k] == 2) listed.pairs[kept++] = listed.pairs[k];
+  }
+  listed.pairs.resize(kept);
+}
+
 }  // namespace
 
 std::size_t PointsOnLists::memory_bytes() const noexcept {
-  return bytes_of(numbers) + bytes_of(texels) + bytes_of(depths) + bytes_of(pairs);
+  return bytes_of(numbers) + bytes_of(texels) + bytes_of(depths) + bytes_of(pairs) + bytes_of(verdicts);
 }
 
 bool can_ask_lists(const Scene& scene, const Vector& light, double size) {
@@ -63,6 +79,8 @@ std::size_t ask_lists(const Scene& scene, const Vector& light, const TexelLists&
   listed.pairs.clear();
   const std::uint64_t decided = simd::ask_lists(faces, asked, dark.data(), listed.pairs);
   counters.by_float += decided;
+  const std::size_t held = static_cast<std::size_t>(decided) + listed.pairs.size();
+  if (points.given != nullptr) decide_given(scene, light, points.given, listed, dark);
   for (const simd::OpenPair& pair : listed.pairs) {
     if (dark[pair.point] != 0) continue;
     dark[pair.point] = is_blocked_by(scene, light, points, pair, blocks_exactly, counters) ? 1 : 0;
@@ -71,7 +89,7 @@ std::size_t ask_lists(const Scene& scene, const Vector& light, const TexelLists&
   for (const std::uint32_t number : listed.numbers) {
     if (dark[number] != 0) mask.clear(number);
   }
-  return static_cast<std::size_t>(decided) + listed.pairs.size();
+  return held;
 }
 
 }  // namespace facemap

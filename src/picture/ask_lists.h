@@ -19,6 +19,7 @@ struct PointsOnLists {
   std::vector<std::uint32_t> texels;
   std::vector<std::uint32_t> depths;
   std::vector<simd::OpenPair> pairs;
+  std::vector<std::uint8_t> verdicts;  // of pairs of given points
 
   std::size_t memory_bytes() const noexcept;
 };

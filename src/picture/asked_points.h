@@ -23,6 +23,7 @@ struct AskedPoints {
   UnsetVector<std::int32_t> x, y, z;
   UnsetVector<std::uint32_t> faces;    ///< the face a point lies on, which never blocks it, or kNoOwnFace
   UnsetVector<std::uint32_t> samples;  ///< the sample of the picture that sees it
+  const float* given = nullptr;        ///< where the points are exactly, three floats each; null: float32 can't say
 
   std::size_t size() const noexcept { return x.size(); }
 };

@@ -17,8 +17,12 @@ using simd::ShadowPlanes;
 
 constexpr std::size_t kGroup = ShadowPlanes::kFaces;
 
-// Open pairs are kept until there are this many: by then most of their points are blocked for certain.
-constexpr std::size_t kMostUndecided = std::size_t{1} << 16;
+// Open pairs are kept until there are this many: by then most of their points are blocked for certain. Of given points
+// more are open, those on their own faces: the later they are asked, the fewer.
+constexpr std::size_t kMostUndecided = std::size_t{1} << 16, kMostUndecidedGiven = std::size_t{1} << 20;
+
+// Pairs that are decided together: while they are, their points' other pairs are not left out.
+constexpr std::size_t kGivenPairs = 1024;
 
 // No w is greater: for faces of which nothing is known, and less than what a block has that is blocked altogether.
 constexpr float kNoBound = 0x1p126f;
@@ -77,6 +81,8 @@ void ShadowFaces::run(const ShadowRun& run, ShadowPoints& points, Counters& coun
 
   queue_.count = 0;
   undecided_.clear();
+  const std::size_t most_undecided = run.given != nullptr ? kMostUndecidedGiven : kMostUndecided;
+  if (run.given != nullptr) reserve_pages(undecided_, std::min(most_undecided, points.count()));
   const std::size_t count = run.some != nullptr ? run.some->size() : mesh.face_count();
   for (std::size_t first = 0; first < count; first += kShadowFaces) {
     const std::size_t waiting = queue_.count;
@@ -84,7 +90,7 @@ void ShadowFaces::run(const ShadowRun& run, ShadowPoints& points, Counters& coun
     queue_across(run, points.raster());
     if (has_odd_faces) drop_odd_faces(run.scene, waiting);
     test_first(run, points, queue_.count / kGroup * kGroup, counters);
-    if (undecided_.size() > kMostUndecided) resolve(run, points);
+    if (undecided_.size() > most_undecided) resolve(run, points);
   }
   test_first(run, points, queue_.count, counters);
   resolve(run, points);
@@ -207,6 +213,7 @@ void ShadowFaces::settle_sides(const ShadowRun& run, std::size_t count, Counters
 }
 
 void ShadowFaces::resolve(const ShadowRun& run, ShadowPoints& points) {
+  if (run.given != nullptr) decide_given(run, points);
   for (const simd::UndecidedPair& pair : undecided_) {
     if (points.is_blocked(pair.place)) continue;
     if (run.blocks_exactly(points.point_at(pair.place), pair.face, pair.side)) points.set_blocked(pair.place);
@@ -214,9 +221,35 @@ void ShadowFaces::resolve(const ShadowRun& run, ShadowPoints& points) {
   undecided_.clear();
 }
 
+// Doubles decide almost all pairs of given points, many at a time; the others stay.
+void ShadowFaces::decide_given(const ShadowRun& run, ShadowPoints& points) {
+  const Mesh& mesh = run.scene.mesh();
+  const simd::GivenPoints given{
+      run.given, mesh.triangles[0].data(), &mesh.positions[0].x, {run.light.x, run.light.y, run.light.z}};
+  std::size_t kept = 0;
+  for (std::size_t first = 0; first < undecided_.size(); first += kGivenPairs) {
+    const std::size_t last = std::min(first + kGivenPairs, undecided_.size()), begin = kept;
+    given_.clear();
+    for (std::size_t i = first; i < last; ++i) {
+      const simd::UndecidedPair pair = undecided_[i];
+      if (points.is_blocked(pair.place)) continue;
+      given_.push_back({points.point_at(pair.place), pair.face});
+      undecided_[kept++] = pair;
+    }
+    verdicts_.resize(given_.size());
+    simd::decide_pairs(given, given_.data(), given_.size(), verdicts_.data());
+    kept = begin;
+    for (std::size_t k = 0; k < given_.size(); ++k) {
+      if (verdicts_[k] == 1) points.set_blocked(undecided_[begin + k].place);
+      if (verdicts_[k] == 2) undecided_[kept++] = undecided_[begin + k];
+    }
+  }
+  undecided_.resize(kept);
+}
+
 std::size_t ShadowFaces::memory_bytes() const noexcept {
   return sizeof(*this) + bytes_of(places_) + bytes_of(corners_) + bytes_of(planes_) + bytes_of(sides_) +
-         bytes_of(corners_of_some_) + bytes_of(jobs_) + bytes_of(undecided_);
+         bytes_of(corners_of_some_) + bytes_of(jobs_) + bytes_of(undecided_) + bytes_of(given_) + bytes_of(verdicts_);
 }
 
 }  // namespace facemap

@@ -7,6 +7,7 @@
 
 #include "picture/shadow_points.h"
 #include "picture/shadows.h"
+#include "simd/given_pairs.h"
 
 namespace facemap {
 
@@ -18,6 +19,7 @@ struct ShadowRun {
   double slack;  ///< of set_up_planes
   const std::uint8_t* skip_entries;
   const std::vector<std::uint32_t>* some;  ///< the only faces that matter, or null
+  const float* given;                      ///< AskedPoints::given
   const BlocksExactly& blocks_exactly;
 };
 
@@ -36,6 +38,7 @@ class ShadowFaces {
   void test_first(const ShadowRun& run, ShadowPoints& points, std::size_t count, Counters& counters);
   void settle_sides(const ShadowRun& run, std::size_t count, Counters& counters);
   void resolve(const ShadowRun& run, ShadowPoints& points);
+  void decide_given(const ShadowRun& run, ShadowPoints& points);
 
   std::vector<float> places_;                   ///< of vertices, three a vertex
   simd::SiftedFaces queue_;                     ///< faces to be tested
@@ -45,6 +48,8 @@ class ShadowFaces {
   std::vector<std::int8_t> sides_;
   simd::ShadowJobs jobs_;
   std::vector<simd::UndecidedPair> undecided_;
+  std::vector<simd::GivenPair> given_;  ///< those of given points, with their verdicts
+  std::vector<std::uint8_t> verdicts_;
 };
 
 }  // namespace facemap

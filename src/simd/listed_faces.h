@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "simd/given_pairs.h"
+
 namespace facemap::simd {
 
 /// Where the entries of each texel begin: those of sixteen texels side by side within 2^16 of each other. There is one
@@ -48,9 +50,7 @@ struct PointsToList {
 };
 
 /// A point and a face of its list of which float32 can't say whether it stands before the point.
-struct OpenPair {
-  std::uint32_t point, face;
-};
+using OpenPair = GivenPair;
 
 /// Offsets from the light, of faces and points, have their greatest component within these: nothing overflows, and
 /// what underflow loses is less than the filter's bounds allow for.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -54,8 +55,9 @@ simd::PointBox box_of(std::span<const Vector> points, const Executor& executor) 
   return all;
 }
 
-// Room for the points of a box.
-void start(const simd::PointBox& box, std::size_t count, AskedPoints& points) {
+// Room for points in a box.
+void start(const simd::PointBox& box, std::span<const Vector> of, AskedPoints& points) {
+  const std::size_t count = of.size();
   double reach = 0;
   for (int k = 0; k < 3; ++k) {
     points.origin[k] = 0.5 * (double{box.lower[k]} + double{box.upper[k]});
@@ -65,6 +67,18 @@ void start(const simd::PointBox& box, std::size_t count, AskedPoints& points) {
   points.error = kRoundingError * points.step;
   for (auto* coordinates : {&points.x, &points.y, &points.z}) coordinates->resize(count);
   points.faces.resize(count);
+  points.given = floats_of(of);
+}
+
+// Points whose coordinates and faces are to share large pages.
+AskedPoints on_shared_pages(std::size_t count) {
+  const auto pages = std::make_shared<SharedPages>(4 * SharedPages::room_for<std::int32_t>(count));
+  AskedPoints points;
+  for (auto* coordinates : {&points.x, &points.y, &points.z}) {
+    *coordinates = UnsetVector<std::int32_t>(UnsetAllocator<std::int32_t>(pages));
+  }
+  points.faces = UnsetVector<std::uint32_t>(UnsetAllocator<std::uint32_t>(pages));
+  return points;
 }
 
 std::uint32_t own_face(const Scene& scene, const Viewpoint::Targets& targets, std::size_t point) {
@@ -94,9 +108,10 @@ void fill(const Scene& scene, const Viewpoint::Targets& targets, std::size_t fir
 
 AskedPoints asked_points(const Scene& scene, const Viewpoint::Targets& targets, std::size_t first, std::size_t last,
                          const Executor& executor) {
-  AskedPoints points;
-  if (first == last) return points;
-  start(box_of(targets.points.subspan(first, last - first), executor), last - first, points);
+  if (first == last) return {};
+  AskedPoints points = on_shared_pages(last - first);
+  const std::span<const Vector> some = targets.points.subspan(first, last - first);
+  start(box_of(some, executor), some, points);
   for_ranges(executor, last - first, kFewestPoints, [&](std::size_t begin, std::size_t end, int) {
     fill(scene, targets, first + begin, first + end, begin, points);
   });
@@ -106,7 +121,8 @@ AskedPoints asked_points(const Scene& scene, const Viewpoint::Targets& targets, 
 void put_points(const Scene& scene, const Viewpoint::Targets& targets, std::size_t first, std::size_t last,
                 AskedPoints& points) {
   if (first == last) return;
-  start(box_of(targets.points.subspan(first, last - first)), last - first, points);
+  const std::span<const Vector> some = targets.points.subspan(first, last - first);
+  start(box_of(some), some, points);
   fill(scene, targets, first, last, 0, points);
 }
 
