@@ -22,8 +22,6 @@ FaceAnswers::FaceAnswers(const VisibleFaceSearch& search) : search_(search), rea
 
 FaceAnswers::Answer FaceAnswers::decide(std::uint32_t id, std::vector<CoveredPiece>* pieces) {
   if (pieces != nullptr) pieces->clear();
-  if (!search_.faces_.all().is_kept(id)) return {FaceVisibility::Hidden, HiddenReason::LeftOut};
-  if (search_.sides_[id] == 0) return {FaceVisibility::Hidden, HiddenReason::EdgeOn};
   const SeenFace face(search_.faces_.scene, id, search_.sides_[id], search_.origin_);
   work_ = 0;
   const FacePiece whole(face, search_.origin_);
@@ -75,7 +73,7 @@ FaceAnswers::Outcome FaceAnswers::ask(const FacePiece& piece) {
 FaceId FaceAnswers::nearest(const SeenFace& face) {
   const MapFaces& faces = search_.faces_;
   const Tracked t = ray_parameter({search_.origin_, direction_, face.triangle(), face.side});
-  work_ += search_.tree_.find(search_.origin_, direction_, t.value + t.error, found_) / kBoxesAStep + 1;
+  work_ += search_.tree_.find(direction_, t.value + t.error, found_) / kBoxesAStep + 1;
   NearestHit best(faces.scene, search_.origin_, direction_, nullptr);
   before_.clear();
   for (const std::uint32_t id : found_) {

@@ -22,8 +22,8 @@ class FaceAnswers {
     Vector witness{0};
   };
 
-  /// Looks for a direction that sees a piece of the face, and for faces that cover it; cuts pieces up that have
-  /// neither. `pieces`, if not null, becomes those that are covered.
+  /// The face is not seen edge-on. Looks for a direction that sees a piece of it, and for faces that cover it; cuts
+  /// pieces up that have neither. `pieces`, if not null, becomes those that are covered.
   Answer decide(std::uint32_t face, std::vector<CoveredPiece>* pieces = nullptr);
 
  private:

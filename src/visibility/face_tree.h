@@ -3,38 +3,58 @@
 #include <facemap/scene.h>
 #include <facemap/vector.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
-#include <span>
+#include <optional>
 #include <vector>
 
 #include "parallel/executor.h"
 
 namespace facemap {
 
-/// Axis-parallel boxes about faces, about four of these, and so on: which faces a ray may meet. Float32 boxes are
-/// exact, and the test of a ray errs to one side only.
+/// Which faces a ray from an origin may meet. The directions are the six sides of a cube, each a plane with places
+/// (u, v) from -1 to 1; there are boxes about what faces fill of it, about eight of these, and so on. All bounds err to
+/// one side only.
 class FaceTree {
  public:
   /// `faces`: ids of those that count.
-  FaceTree(const Scene& scene, std::vector<std::uint32_t> faces, const Executor& executor);
+  FaceTree(const Scene& scene, const std::vector<std::uint32_t>& faces, const Vector& origin, const Executor& executor);
 
-  /// Sets `found` to faces that the ray from `origin` along `direction` may meet before the parameter `end`, all of
-  /// those that it does meet among them. Gives the number of boxes looked at.
-  std::size_t find(const Vector& origin, const Vector& direction, double end, std::vector<std::uint32_t>& found) const;
+  /// Sets `found` to faces that the ray along `direction` may meet, all of those among them that it does meet before
+  /// the parameter `end`. A direction has finite components, not all 0. Gives the number of boxes looked at.
+  std::size_t find(const Vector& direction, double end, std::vector<std::uint32_t>& found) const;
+
+  /// The faces, each once, in an order that keeps together what is seen in close directions.
+  std::vector<std::uint32_t> in_order(std::size_t face_count) const;
 
   std::size_t memory_bytes() const noexcept;
 
  private:
+  static constexpr std::size_t kTogether = 8;
+
+  // What a face fills of a side.
   struct Box {
-    Vector lower, upper;
+    float u0, u1, v0, v1, near;
   };
-  class Ray;
+  // Side by side; empty until they are set. `near`: no point of the face has a lesser depth from the origin.
+  struct Boxes {
+    Boxes();
+    void set(std::size_t k, const Box& box);
+    Box all() const;
+    std::uint32_t met_by(float u, float v, float far) const;  // a bit each
 
-  void sort(const Scene& scene, const Executor& executor);
-  void make_boxes(const Scene& scene, const Executor& executor);
+    std::array<float, kTogether> u0, u1, v0, v1, near;
+  };
+  struct Side {
+    std::vector<std::uint32_t> faces;        // along a curve that keeps together what is close
+    std::vector<std::vector<Boxes>> levels;  // of faces, then of eight boxes of the level below; the last is one
+  };
+  static Side make_side(const Scene& scene, const std::vector<std::uint32_t>& faces, const Vector& origin, int side);
+  static void add_levels(Side& side);
+  static std::optional<Box> box_on(const std::array<DVector, 3>& corners);
 
-  std::vector<std::uint32_t> faces_;      // along a curve through space
-  std::vector<std::vector<Box>> levels_;  // of faces, then each of four below; the last has at most four
+  std::array<Side, 6> sides_;
 };
 
 }  // namespace facemap

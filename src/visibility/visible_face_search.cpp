@@ -39,23 +39,25 @@ VisibleFaceSearch::VisibleFaceSearch(const MapFaces& faces, const Vector& origin
       origin_(origin),
       sides_(sides_of(faces.all(), origin, executor)),
       neighbours_(find_face_neighbours(faces.solid())),
-      tree_(faces.scene, not_edge_on(faces.all(), sides_), executor) {}
+      tree_(faces.scene, not_edge_on(faces.all(), sides_), origin, executor) {}
 
 VisibleFaces VisibleFaceSearch::find(const Executor& executor, const Viewpoint::Progress& progress) const {
   const std::size_t count = sides_.size();
-  VisibleFaces answers{std::vector<FaceVisibility>(count), std::vector<Vector>(count, Vector(0)),
-                       std::vector<HiddenReason>(count)};
+  VisibleFaces answers{std::vector<FaceVisibility>(count, FaceVisibility::Hidden),
+                       std::vector<Vector>(count, Vector(0)), std::vector<HiddenReason>(count, HiddenReason::LeftOut)};
+  for (const std::uint32_t face : faces_.all().kept_faces()) answers.reasons[face] = HiddenReason::EdgeOn;
+  const std::vector<std::uint32_t> order = tree_.in_order(count);
   std::vector<std::unique_ptr<FaceAnswers>> workers(static_cast<std::size_t>(executor.threads()));
-  ToldProgress told(progress, count);
-  executor.for_each((count + kFacesATask - 1) / kFacesATask, [&](std::size_t task, int worker) {
+  ToldProgress told(progress, order.size());
+  executor.for_each((order.size() + kFacesATask - 1) / kFacesATask, [&](std::size_t task, int worker) {
     std::unique_ptr<FaceAnswers>& own = workers[static_cast<std::size_t>(worker)];
     if (own == nullptr) own = std::make_unique<FaceAnswers>(*this);
-    const std::size_t first = task * kFacesATask, last = std::min(first + kFacesATask, count);
-    for (std::size_t face = first; face < last; ++face) {
-      const FaceAnswers::Answer answer = own->decide(static_cast<std::uint32_t>(face));
-      answers.faces[face] = answer.visibility;
-      answers.witnesses[face] = answer.witness;
-      answers.reasons[face] = answer.reason;
+    const std::size_t first = task * kFacesATask, last = std::min(first + kFacesATask, order.size());
+    for (std::size_t i = first; i < last; ++i) {
+      const FaceAnswers::Answer answer = own->decide(order[i]);
+      answers.faces[order[i]] = answer.visibility;
+      answers.witnesses[order[i]] = answer.witness;
+      answers.reasons[order[i]] = answer.reason;
     }
     told.add(last - first);
   });
@@ -64,6 +66,7 @@ VisibleFaces VisibleFaceSearch::find(const Executor& executor, const Viewpoint::
 
 std::vector<CoveredPiece> VisibleFaceSearch::covered_pieces(std::uint32_t face) const {
   std::vector<CoveredPiece> pieces;
+  if (sides_[face] == 0) return pieces;
   const FaceAnswers::Answer answer = FaceAnswers(*this).decide(face, &pieces);
   if (answer.reason != HiddenReason::Covered) pieces.clear();
   return pieces;
