@@ -1,5 +1,7 @@
 #include "hit_picture.h"
 
+#include <facemap/hit_color.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -14,18 +16,8 @@ namespace {
 constexpr int kSwatches = 9;
 constexpr int kDotsHigh = 2 * kDigitHeight + 8;  // of the legend: a swatch, a number, space around them
 
-const Color kNoDirectionColor = Color::from_24_bit(0xbcd0e0);
 const Color kPaper = Color::from_24_bit(0xffffff);
 const Color kInk = Color::from_24_bit(0x000000);
-
-/// White for none. Every step shows where there are few, and many do not drown: the level goes with the
-/// square root of the share.
-Color shade_of(int hits, int most) {
-  if (hits <= 0) return kPaper;
-  const double share = std::sqrt(static_cast<double>(hits) / most);
-  const auto level = static_cast<std::uint32_t>(std::lround(235 * (1 - share)));
-  return Color::from_24_bit(level << 16 | level << 8 | level);
-}
 
 /// Up to kSwatches different numbers from 0 to `most`, dense where they are small.
 std::vector<int> legend_numbers(int most) {
@@ -52,7 +44,7 @@ void draw_legend(Image& image, int top, int scale, int most) {
     const int x = static_cast<int>(i) * step;
     const int y = top + 2 * scale, height = kDigitHeight * scale;
     fill_rectangle(image, x + scale, y, step - 2 * scale, height, kInk);
-    fill_rectangle(image, x + 2 * scale, y + scale, step - 4 * scale, height - 2 * scale, shade_of(numbers[i], most));
+    fill_rectangle(image, x + 2 * scale, y + scale, step - 4 * scale, height - 2 * scale, hit_color(numbers[i], most));
     const std::string digits = std::to_string(numbers[i]);
     draw_digits(image, digits, x + (step - digits_width(digits, scale)) / 2, y + height + 3 * scale, scale, kInk);
   }
@@ -82,7 +74,7 @@ Image hit_picture(const std::vector<int>& hits, int width, int height) {
   image.height = height + kDotsHigh * scale;
   image.pixels.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(image.height), kPaper);
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    image.pixels[i] = hits[i] == kNoDirection ? kNoDirectionColor : shade_of(hits[i], most);
+    image.pixels[i] = hits[i] == kNoDirection ? no_direction_color() : hit_color(hits[i], most);
   }
   draw_legend(image, height, scale, most);
   return image;

@@ -9,6 +9,7 @@
 #include <facemap/error.h>
 #include <facemap/face.h>
 #include <facemap/face_map.h>
+#include <facemap/hit_color.h>
 #include <facemap/image.h>
 #include <facemap/image_file.h>
 #include <facemap/instruction_set.h>

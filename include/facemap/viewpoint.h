@@ -1,6 +1,7 @@
 #pragma once
 
 #include <facemap/face.h>
+#include <facemap/image.h>
 #include <facemap/scene.h>
 #include <facemap/vector.h>
 #include <facemap/visible_faces.h>
@@ -39,6 +40,14 @@ class Viewpoint {
     float tolerance = 0;  ///< world units: a face hides only points that are farther than this from its plane
   };
 
+  /// A picture of directions: a surface projection (ProjectionKind), the distance from the middle being the angle.
+  struct ImageOptions {
+    int width = 1024;                        ///< pixels
+    int height = 1024;                       ///< pixels
+    double field_angle = 6.283185307179586;  ///< radians across the shorter side; 2 pi: all directions
+    Vector sight{0};                         ///< direction in the middle; zero: towards the middle of the scene
+  };
+
   /// Fraction done (0..1); called now and then, by one thread at a time, not always the caller's. Return false to
   /// stop: the call then throws Error.
   using Progress = std::function<bool(double)>;
@@ -74,6 +83,11 @@ class Viewpoint {
   /// Every face that each direction meets, in exact order of distance; of faces at the same distance the one turned
   /// towards the origin comes first, then the lower id. Nothing for the zero vector and for what is not finite.
   AllHits all_hits(std::span<const Vector> directions, const Progress& progress = {}) const;
+
+  /// Wang 2022, Fig. 9: the darker a pixel, the more faces the ray through its centre meets (hit_color); pale blue
+  /// where there is no direction. Its planes ids and depths hold the nearest. Throws Error if an option is out of
+  /// range.
+  Image image(const ImageOptions& options, const Progress& progress = {}) const;
 
   /// Which faces are visible, each with a direction that sees it, and which are hidden. Throws Error if stopped.
   VisibleFaces visible_faces(const Progress& progress = {}) const;

@@ -1,7 +1,9 @@
 // A viewpoint's answers about rays (nearest, all hits) and which face hides a point, against the referee, on random
 // hard scenes with and without holes, with one thread to three. FACEMAP_QUERIES sets how many, FACEMAP_SEED which.
 
+#include <facemap/camera.h>
 #include <facemap/error.h>
+#include <facemap/hit_color.h>
 #include <facemap/viewpoint.h>
 #include <gtest/gtest.h>
 
@@ -284,6 +286,60 @@ TEST(ViewpointRays, ASceneOfOddFacesIsEmpty) {
   viewpoint.blocked_by({directions}, faces);
   EXPECT_EQ(faces[0], kNoFace);
   EXPECT_TRUE(viewpoint.all_hits(directions).faces.empty());
+}
+
+TEST(ViewpointRays, PicturesShowHowManyFacesAreMet) {
+  Random random(0x5eed0503);
+  const TestScene test = test_scenes::make_scene(test_scenes::Kind::Soup, 60, random);
+  const Scene scene(test.mesh);
+  const Viewpoint viewpoint(scene, Vector(test.centre));
+  Viewpoint::ImageOptions options;
+  options.width = 40;
+  options.height = 30;
+  options.sight = Vector(1, 2, -1);
+  const Image image = viewpoint.image(options);
+  ASSERT_EQ(image.pixels.size(), 1200u);
+
+  Camera::Options same;
+  same.field_angle = options.field_angle;
+  same.width = options.width;
+  same.height = options.height;
+  same.keep_all = true;
+  const Camera camera(scene, SpaceVector::looking_along(viewpoint.origin(), DVector(options.sight)), same);
+  std::vector<int> hits;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const Vector d = camera.direction_through({x + 0.5, y + 0.5});
+      const Camera::Hit nearest = camera.nearest(d);
+      EXPECT_EQ(image.ids[hits.size()], nearest.face);
+      EXPECT_EQ(image.depths[hits.size()], nearest.depth);
+      hits.push_back(d == Vector(0) ? -1 : camera.count_hits(d));
+    }
+  }
+  const int most = *std::max_element(hits.begin(), hits.end());
+  EXPECT_GT(most, 3);
+  EXPECT_EQ(std::count(hits.begin(), hits.end(), -1) > 0, true);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    EXPECT_EQ(image.pixels[i], hits[i] < 0 ? no_direction_color() : hit_color(hits[i], most));
+  }
+  EXPECT_EQ(hit_color(0, most), (Color{1, 1, 1}));
+  EXPECT_EQ(hit_color(most, most), (Color{0, 0, 0}));
+  EXPECT_LT(hit_color(2, most).r, hit_color(1, most).r);
+}
+
+TEST(ViewpointRays, PicturesThatAreNoneAreRefused) {
+  const Scene scene = room(1);
+  const Viewpoint viewpoint(scene, Vector(0));
+  const auto refuses = [&](auto change) {
+    Viewpoint::ImageOptions options;
+    change(options);
+    EXPECT_THROW(viewpoint.image(options), Error);
+  };
+  refuses([](auto& options) { options.width = 0; });
+  refuses([](auto& options) { options.height = 40'000; });
+  refuses([](auto& options) { options.field_angle = 6.3; });
+  refuses([](auto& options) { options.field_angle = NAN; });
+  refuses([](auto& options) { options.sight = Vector(0, INFINITY, 0); });
 }
 
 // ---- progress, and several callers ------------------------------------------------------------------------
