@@ -13,7 +13,7 @@ from .frame import Frame, save_png
 from .generated import generate
 from .light import Light
 from .scene import Scene, load
-from .view import HIDDEN_REASONS, AllHits, CoveredPiece, Nearest, View, VisibleFaces, visibility
+from .view import HIDDEN_REASONS, AllHits, CoveredPiece, Nearest, View, VisibleFaces, visibility, visibility_along
 
 __all__ = [
     "AllHits",
@@ -34,4 +34,5 @@ __all__ = [
     "load",
     "save_png",
     "visibility",
+    "visibility_along",
 ]

@@ -205,3 +205,6 @@ class View:
 def visibility_bits(scene: Scene, origins: np.ndarray, points: np.ndarray, faces: Optional[np.ndarray],
                     tolerance: float, threads: int, memory: int, cut_outs: bool, max_texture_pixels: int,
                     progress: _Progress) -> np.ndarray: ...
+def visibility_along_bits(scene: Scene, directions: np.ndarray, points: np.ndarray, faces: Optional[np.ndarray],
+                          tolerance: float, threads: int, memory: int, cut_outs: bool, max_texture_pixels: int,
+                          progress: _Progress) -> np.ndarray: ...

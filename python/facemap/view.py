@@ -345,17 +345,64 @@ def visibility(scene: Scene, origins: Any, points: Any, packed: bool = False,
     >>> seen = facemap.visibility(scene, lamps, desks)
     >>> seen.any(axis=0)                        # desks that some lamp reaches
     """
+    return _ask_many(_facemap.visibility_bits, scene, "origins", origins, points, faces, tolerance, packed, threads,
+                     memory, cut_outs, max_texture_pixels, progress)
+
+
+def visibility_along(scene: Scene, directions: Any, points: Any, packed: bool = False,
+                     progress: Optional[Callable[[float, str], Any]] = None, memory: int = 0, *, faces: Any = None,
+                     tolerance: float = 0.0, threads: int = 0, cut_outs: bool = True,
+                     max_texture_pixels: int = MOST_TEXTURE_PIXELS) -> np.ndarray:
+    """Which points see infinitely far along which directions: the sky, and the sun.
+
+    A point does if no face stands strictly between it and what is infinitely far along the direction. A point on a
+    face's plane is not hidden by that face; a face that is seen edge-on hides nothing.
+
+    Parameters
+    ----------
+    scene : Scene
+    directions : (..., 3) floats
+        From the points towards the far, of any length but 0; finite.
+    points : (..., 3) floats
+        World units; finite.
+    packed, progress, memory, faces, tolerance, threads, cut_outs, max_texture_pixels
+        As of visibility.
+
+    Returns
+    -------
+    bool, of the directions' shape and then the points'; or packed uint8, as visibility gives it.
+
+    Raises
+    ------
+    TypeError, ValueError, IndexError
+        Naming the argument.
+
+    Examples
+    --------
+    >>> to_the_sun = [0.5, 0.7, 0.1]
+    >>> sunny = facemap.visibility_along(scene, to_the_sun, scene.vertices)
+    """
+    flat = _checks.finite("directions", _checks.floats("directions", directions))
+    if not flat.any(axis=-1).all():
+        raise ValueError("directions: the zero vector is no direction")
+    return _ask_many(_facemap.visibility_along_bits, scene, "directions", flat, points, faces, tolerance, packed,
+                     threads, memory, cut_outs, max_texture_pixels, progress)
+
+
+def _ask_many(ask: Callable[..., np.ndarray], scene: Scene, from_name: str, start: Any, points: Any, faces: Any,
+              tolerance: float, packed: bool, threads: int, memory: int, cut_outs: bool, max_texture_pixels: int,
+              progress: Optional[Callable[[float, str], Any]]) -> np.ndarray:
+    """What visibility and visibility_along have in common."""
     core = _checks.core_of(scene)
-    from_flat, from_shape = _flat("origins", origins)
+    from_flat, from_shape = _flat(from_name, start)
     flat, shape = _flat("points", points)
     own = _own_faces(faces, shape, core.face_count)
-    _checks.finite("origins", from_flat)
+    _checks.finite(from_name, from_flat)
     is_packed = _checks.truth("packed", packed)
     with _checks.named("points"):
-        bits = _facemap.visibility_bits(
-            core, from_flat, flat, own, _tolerance(tolerance), _checks.threads(threads),
-            _checks.whole("memory", memory, 0, 2**63 - 1), _checks.truth("cut_outs", cut_outs),
-            _checks.whole("max_texture_pixels", max_texture_pixels, 0, 2**63 - 1), _checks.progress(progress))
+        bits = ask(core, from_flat, flat, own, _tolerance(tolerance), _checks.threads(threads),
+                   _checks.whole("memory", memory, 0, 2**63 - 1), _checks.truth("cut_outs", cut_outs),
+                   _checks.whole("max_texture_pixels", max_texture_pixels, 0, 2**63 - 1), _checks.progress(progress))
     if is_packed:
         return bits.reshape(from_shape + bits.shape[1:])
     return np.unpackbits(bits, axis=1, count=len(flat), bitorder="little").view(np.bool_).reshape(from_shape + shape)

@@ -108,22 +108,41 @@ class KeptView {
   Viewpoint view_;
 };
 
-/// Rows of bits, one an origin.
-py::array_t<std::uint8_t> visibility_bits(const Scene& scene, const Rows<float>& origins, const Rows<float>& points,
-                                          const Faces& faces, float tolerance, const VisibilityOptions& options,
-                                          const py::object& progress) {
-  const std::span<const Vector> from = rows_of<Vector>(origins);
+/// visibility() or visibility_along(), which ask of origins or directions.
+using AskMany = void (*)(const Scene& scene, std::span<const Vector> from, const Viewpoint::Targets& targets,
+                         std::span<std::uint8_t> bits, const VisibilityOptions& options,
+                         const Viewpoint::Progress& progress);
+
+/// Rows of bits, one an origin or a direction.
+py::array_t<std::uint8_t> bits_of(AskMany ask_many, const Scene& scene, const Rows<float>& from,
+                                  const Rows<float>& points, const Faces& faces, float tolerance,
+                                  const VisibilityOptions& options, const py::object& progress) {
+  const std::span<const Vector> from_rows = rows_of<Vector>(from);
   const Viewpoint::Targets targets = targets_of(points, faces, tolerance);
   const auto row = static_cast<py::ssize_t>(visibility_row_bytes(targets.points.size()));
-  py::array_t<std::uint8_t> rows({origins.shape(0), row});
+  py::array_t<std::uint8_t> rows({from.shape(0), row});
   const std::span<std::uint8_t> bits = elements_of(rows);
   call_interruptibly(
       [&](const Report& report) {
-        visibility(scene, from, targets, bits, options,
-                   [&report](double fraction) { return report(fraction, "asking"); });
+        ask_many(scene, from_rows, targets, bits, options,
+                 [&report](double fraction) { return report(fraction, "asking"); });
       },
       progress);
   return rows;
+}
+
+void bind_bits(py::module_& module, const char* name, const char* from_name, AskMany ask_many) {
+  module.def(
+      name,
+      [ask_many](const std::shared_ptr<Scene>& scene, const Rows<float>& from, const Rows<float>& points,
+                 const Faces& faces, float tolerance, int threads, std::size_t memory, bool cut_outs,
+                 std::uint64_t max_texture_pixels, const py::object& progress) {
+        const VisibilityOptions options{threads, memory, cut_outs, max_texture_pixels};
+        return bits_of(ask_many, *scene, from, points, faces, tolerance, options, progress);
+      },
+      py::arg("scene"), py::arg(from_name).noconvert(), py::arg("points").noconvert(), py::arg("faces").noconvert(),
+      py::arg("tolerance"), py::arg("threads"), py::arg("memory"), py::arg("cut_outs"), py::arg("max_texture_pixels"),
+      py::arg("progress"));
 }
 
 }  // namespace
@@ -151,17 +170,8 @@ void bind_views(py::module_& module) {
       .def("covered_pieces", &KeptView::covered_pieces, py::arg("face"))
       .def_property_readonly("memory_bytes", &KeptView::memory_bytes);
 
-  module.def(
-      "visibility_bits",
-      [](const std::shared_ptr<Scene>& scene, const Rows<float>& origins, const Rows<float>& points, const Faces& faces,
-         float tolerance, int threads, std::size_t memory, bool cut_outs, std::uint64_t max_texture_pixels,
-         const py::object& progress) {
-        const VisibilityOptions options{threads, memory, cut_outs, max_texture_pixels};
-        return visibility_bits(*scene, origins, points, faces, tolerance, options, progress);
-      },
-      py::arg("scene"), py::arg("origins").noconvert(), py::arg("points").noconvert(), py::arg("faces").noconvert(),
-      py::arg("tolerance"), py::arg("threads"), py::arg("memory"), py::arg("cut_outs"), py::arg("max_texture_pixels"),
-      py::arg("progress"));
+  bind_bits(module, "visibility_bits", "origins", &visibility);
+  bind_bits(module, "visibility_along_bits", "directions", &visibility_along);
 }
 
 }  // namespace facemap::python

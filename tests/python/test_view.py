@@ -99,6 +99,17 @@ def test_visibility_is_view_by_view(bust, random):
     assert np.array_equal(np.unpackbits(packed, axis=2, count=35, bitorder="little").reshape(seen.shape), seen)
 
 
+def test_visibility_along_is_nothing_that_a_view_from_the_point_meets(bust, random):
+    directions = random.normal(size=(2, 3, 3)).astype(np.float32)
+    points = random.uniform(-1, 2, (20, 3)).astype(np.float32)
+    far = facemap.visibility_along(bust, directions, points)
+    assert far.shape == (2, 3, 20) and far.dtype == np.bool_ and far.any() and not far.all()
+    for i, point in enumerate(points):
+        assert np.array_equal(far[:, :, i], facemap.View(bust, point).nearest(directions).face < 0)
+    packed = facemap.visibility_along(bust, directions, points, packed=True)
+    assert np.array_equal(np.unpackbits(packed, axis=2, count=20, bitorder="little").astype(bool), far)
+
+
 def test_threads_do_not_matter(bust, random):
     points = random.uniform(-1, 2, (40_000, 3)).astype(np.float32)
     views = [facemap.View(bust, (1, 1, 3), threads) for threads in (1, 2, 3)]
@@ -151,6 +162,9 @@ def test_a_view_keeps_its_scene_as_it_was(floor):
     (lambda v: facemap.View(facemap.generate("bust"), (0, 0)), ValueError, "origin"),
     (lambda v: facemap.View(facemap.generate("bust"), (0, 0, 0), threads=1.5), TypeError, "threads"),
     (lambda v: facemap.visibility(None, [[0, 0, 0]], [[0, 0, 0]]), TypeError, "scene"),
+    (lambda v: facemap.visibility_along(facemap.generate("bust"), [[0, 0, 0]], [[0, 0, 0]]), ValueError, "directions"),
+    (lambda v: facemap.visibility_along(facemap.generate("bust"), [[0, 0, np.inf]], [[0, 0, 0]]), ValueError,
+     "directions"),
     (lambda v: facemap.generate("castle"), ValueError, "name"),
     (lambda v: facemap.generate("bust", 99), ValueError, "detail"),
 ])
