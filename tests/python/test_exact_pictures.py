@@ -1,0 +1,105 @@
+"""Scene.render's face_id and light_mask against brute force. FACEMAP_QUERIES: how many pixels."""
+
+import numpy as np
+import pytest
+
+import facemap
+from brute_force import Mesh
+from brute_force import View as Referee
+from brute_force_lights import Seen, Sun, lit_by_point
+from hard_scenes import as_float32, make_origin, make_scene, number_from_environment, some_on_faces
+
+WIDTH, HEIGHT = 12, 12
+
+
+def make_camera(random, vertices, faces, position):
+    """Of a lens at random; looks at some face."""
+    target = position
+    while np.array_equal(target, position):
+        target = as_float32(some_on_faces(random, vertices, faces, 1)[0][0] + random.normal(size=3) * 1e-3)
+    up = random.normal(size=3)
+    lens = str(random.choice(["plane", "surface", "surface", "equirect", "cube", "opencv", "opencv-fisheye"]))
+    if lens.startswith("opencv"):
+        pose = some_pose(random, position)
+        return facemap.Camera.from_opencv([10, 10, 6, 6], [0.05, -0.02, 0.001, 0.002], pose, lens == "opencv-fisheye")
+    angle = random.uniform(10, 170) if lens == "plane" else random.uniform(10, 360)
+    return facemap.Camera(position.tolist(), target.tolist(), up, angle, lens, layout="3x2")
+
+
+def some_pose(random, position):
+    """R|t of a camera that is turned somehow."""
+    rotation = np.linalg.qr(random.normal(size=(3, 3)))[0]
+    rotation *= np.sign(np.linalg.det(rotation))
+    return np.concatenate([rotation, -(rotation @ position.astype(np.float64))[:, np.newaxis]], axis=1)
+
+
+def make_lights(random, vertices, faces):
+    """Point lights, then suns, as a light mask has them; some along edges and planes."""
+    lamps = [make_origin(random, vertices, faces) for _ in range(random.integers(1, 4))]
+    suns = []
+    while len(suns) < 2:
+        aim = np.diff(some_on_faces(random, vertices, faces, 2)[0], axis=0)[0]
+        direction = as_float32(aim if random.random() < 0.5 else random.integers(-2, 3, 3))
+        if direction.any():
+            suns.append(direction)
+    return lamps, suns[:random.integers(0, 3)]
+
+
+def test_pixels_equal_brute_force(random):
+    queries = number_from_environment("FACEMAP_QUERIES", 15_000)
+    asked = hits = lit = dark = scenes = refused = 0
+    while asked < queries:
+        vertices, faces = make_scene(random)
+        scene, mesh = facemap.Scene(vertices, faces), Mesh(vertices, faces)
+        camera = make_camera(random, vertices, faces, make_origin(random, vertices, faces))
+        lamps, suns = make_lights(random, vertices, faces)
+        lights = [facemap.Light(lamp.tolist()) for lamp in lamps] + [facemap.Light.sun(sun.tolist()) for sun in suns]
+        height = WIDTH * 2 // 3 if camera.lens == "cube" else HEIGHT
+        scenes += 1
+        try:
+            origin, directions = camera.rays(scene, WIDTH, height)
+        except facemap.Error:  # a pose with what float32 does not hold
+            refused += 1
+            continue
+        directions = directions.reshape(-1, 3)
+        frame = scene.render(camera, lights, WIDTH, height, planes=["face_id", "light_mask"], terminator_fix=False,
+                             strategy=str(random.choice(["auto", "lists", "transposed"])),
+                             light_maps=str(random.choice(["auto", "keep", "none"])),
+                             threads=int(random.integers(1, 4)))
+        case = (f"vertices = {vertices.tolist()}\nfaces = {faces.tolist()}\n{camera}\nlamps = {lamps}\nsuns = {suns}\n"
+                f"{frame.statistics}")
+
+        referee = Referee(mesh, origin)
+        truth = np.array([met[0][0] if met else -1 for met in referee.all_hits(directions)])
+        answers = frame.face_id.reshape(-1)
+        wrong = np.nonzero(answers != truth)[0]
+        assert not len(wrong), f"{answers[wrong]} not {truth[wrong]} along {directions[wrong].tolist()}\n{case}"
+
+        pixels = np.nonzero(truth >= 0)[0]
+        seen = Seen(origin, directions[pixels], truth[pixels], referee.sides[truth[pixels]])
+        reaches = [lit_by_point(Referee(mesh, lamp), seen) for lamp in lamps] + [Sun(mesh, sun).lit(seen) for sun in suns]
+        mask = frame.light_mask.reshape(len(truth), len(lights))
+        assert not mask[truth < 0].any(), case
+        for k, by_light in enumerate(reaches):
+            wrong = np.nonzero(mask[pixels, k] != by_light)[0]
+            assert not len(wrong), (f"light {k}: {mask[pixels[wrong], k]} on faces {truth[pixels[wrong]]} along "
+                                    f"{directions[pixels[wrong]].tolist()}\n{case}")
+            lit += int(by_light.sum())
+            dark += int((~by_light).sum())
+        asked += len(truth)
+        hits += len(pixels)
+    print(f"{asked} pixels, {hits} with a face, {lit} times lit, {dark} times dark, 0 differences")
+    assert refused < scenes // 10 + 2 and hits > queries // 10 and min(lit, dark) > queries // 50
+
+
+def test_a_view_and_a_picture_agree():
+    scene = facemap.generate("bust")
+    camera = scene.cameras[0]
+    origin, directions = camera.rays(scene, 64, 48)
+    assert np.array_equal(facemap.View(scene, origin).nearest(directions).face,
+                          scene.render(width=64, height=48, planes="face_id").face_id)
+
+
+def test_rays_of_an_orthographic_camera_have_no_origin(bust):
+    with pytest.raises(ValueError, match="lens: "):
+        facemap.Camera(lens="orthographic").rays(bust)
