@@ -29,14 +29,15 @@ struct VisibleFaces {
 };
 
 /// A piece of a hidden face, and what hides it. Take the face `cover` and all faces that are reached from it across
-/// edges that the piece meets. Each such edge belongs to two of them, turned the same way; each of them stands before
-/// the piece's face wherever it is seen in the piece, so none of their outlines passes through; and `cover` is seen
-/// there along `direction`. So one of them is seen in every direction of the piece (docs/algorithm.md).
+/// edges that the piece meets. Each such edge belongs to two faces, which have it in opposite directions, and each face
+/// stands before the hidden one wherever both are seen in the piece. Then the faces that are seen along a direction,
+/// those turned towards the origin less those turned away, are as many in all of the piece; along `direction` they are
+/// not 0. So one of the faces is seen in every direction of the piece (docs/algorithm.md).
 struct CoveredPiece {
   std::uint64_t scale = 1;                                ///< corners are in parts of it: a power of two
   std::array<std::array<std::uint64_t, 3>, 3> corners{};  ///< each as a mean of the face's corners, with these weights
   FaceId cover = kNoFace;
-  Vector direction{0};  ///< from the origin, strictly inside the piece
+  Vector direction{0};  ///< from the origin, strictly inside the piece; it meets `cover`
 };
 
 }  // namespace facemap

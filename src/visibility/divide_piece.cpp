@@ -76,8 +76,11 @@ void FacePiece::divide(const Cut& cut, const FacePiece& whole, std::vector<FaceP
   };
   if (scale_ >= kFinestScale >> kMostBits) return;
 
+  // The middle's part becomes a piece that the line does not touch.
+  const double at_middle = cut.heights[0] + cut.heights[1] + cut.heights[2] < 0 ? -1 : 1;
   const auto sign = [&](std::size_t i) {
-    return cut.heights[i] > cut.slack ? 1 : cut.heights[i] < -cut.slack ? -1 : 0;
+    const double height = at_middle * cut.heights[i];
+    return height > cut.slack ? 1 : height < -cut.slack ? -1 : 0;
   };
   const auto crossing = [&](std::size_t from, std::size_t to) {
     return share_near(cut.heights[from] / (cut.heights[from] - cut.heights[to]), sign(from) > 0);
@@ -109,10 +112,8 @@ void FacePiece::divide(const Cut& cut, const FacePiece& whole, std::vector<FaceP
 }
 
 FacePiece::Cut FacePiece::along_edge(const SeenFace& other, std::size_t k) const {
-  const SeenVertex &p = other.vertices[k], &q = other.vertices[(k + 1) % 3], &r = other.vertices[(k + 2) % 3];
-  const DVector edge = q.offset - p.offset;
-  DVector normal = cross(p.offset, edge);
-  if (dot(normal, r.offset) < 0) normal = -normal;
+  const SeenVertex &p = other.vertices[k], &q = other.vertices[(k + 1) % 3];
+  const DVector normal = cross(p.offset, q.offset - p.offset);
   Cut cut;
   for (std::size_t i = 0; i < 3; ++i) cut.heights[i] = dot(normal, points_[i]);
   cut.slack = kCutSlack * length(normal) * face_->reach;

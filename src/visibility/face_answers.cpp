@@ -18,12 +18,14 @@ constexpr std::size_t kBoxesAStep = 20;
 
 }  // namespace
 
-FaceAnswers::FaceAnswers(const VisibleFaceSearch& search) : search_(search), reached_(search.sides_.size(), 0) {}
+FaceAnswers::FaceAnswers(const VisibleFaceSearch& search)
+    : search_(search), patch_(search.faces_.scene, search.origin_, search.sides_, search.neighbours_) {}
 
 FaceAnswers::Answer FaceAnswers::decide(std::uint32_t id, std::vector<CoveredPiece>* pieces) {
   if (pieces != nullptr) pieces->clear();
   const SeenFace face(search_.faces_.scene, id, search_.sides_[id], search_.origin_);
-  work_ = 0;
+  boxes_ = 0;
+  const std::size_t first_step = patch_.steps();
   const FacePiece whole(face, search_.origin_);
   pieces_.assign(1, whole);
   for (std::size_t next = 0; next < pieces_.size(); ++next) {
@@ -37,7 +39,8 @@ FaceAnswers::Answer FaceAnswers::decide(std::uint32_t id, std::vector<CoveredPie
       continue;
     }
     const std::size_t before = pieces_.size();
-    if (before < kMostPieces && work_ < kMostSteps) piece.divide(cut_, whole, pieces_);
+    if (before < kMostPieces && patch_.steps() - first_step + boxes_ / kBoxesAStep < kMostSteps)
+      piece.divide(cut_, whole, pieces_);
     if (pieces_.size() == before) {
       if (pieces != nullptr) pieces->clear();
       return {};
@@ -59,7 +62,7 @@ FaceAnswers::Outcome FaceAnswers::ask(const FacePiece& piece) {
   for (const std::uint32_t seed : before_) {
     if (seed == face.id) continue;
     FacePiece::Cut cut;
-    if (is_covered_by(piece, seed, cut)) {
+    if (patch_.covers(piece, seed, direction_, cut)) {
       cover_ = seed;
       return Outcome::Covered;
     }
@@ -73,7 +76,7 @@ FaceAnswers::Outcome FaceAnswers::ask(const FacePiece& piece) {
 FaceId FaceAnswers::nearest(const SeenFace& face) {
   const MapFaces& faces = search_.faces_;
   const Tracked t = ray_parameter({search_.origin_, direction_, face.triangle(), face.side});
-  work_ += search_.tree_.find(direction_, t.value + t.error, found_) / kBoxesAStep + 1;
+  boxes_ += search_.tree_.find(direction_, t.value + t.error, found_);
   NearestHit best(faces.scene, search_.origin_, direction_, nullptr);
   before_.clear();
   for (const std::uint32_t id : found_) {
@@ -91,41 +94,6 @@ FaceId FaceAnswers::nearest(const SeenFace& face) {
   const auto nearest = std::find(before_.begin(), before_.end(), static_cast<std::uint32_t>(first));
   if (nearest != before_.end()) std::iter_swap(before_.begin(), nearest);
   return first;
-}
-
-// Whether the patch of `seed` has no outline in the piece and all of it there stands before the piece's face.
-// Else `cut` tells where it ends.
-bool FaceAnswers::is_covered_by(const FacePiece& piece, std::uint32_t seed, FacePiece::Cut& cut) {
-  if (++search_number_ == 0) {
-    std::fill(reached_.begin(), reached_.end(), 0u);
-    search_number_ = 1;
-  }
-  const auto& sides = search_.sides_;
-  to_do_.assign(1, seed);
-  reached_[seed] = search_number_;
-  while (!to_do_.empty()) {
-    const std::uint32_t id = to_do_.back();
-    to_do_.pop_back();
-    if (++work_ >= kMostSteps) return false;
-    const SeenFace face(search_.faces_.scene, id, sides[id], search_.origin_);
-    if (!piece.surely_yields_to(face)) {
-      cut = piece.along_plane(face);
-      return false;
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t other = search_.neighbours_[id][k];
-      const bool goes_on = other != kNoNeighbour && sides[other] == sides[id];
-      if (goes_on && reached_[other] == search_number_) continue;
-      if (!piece.may_meet(face.vertices[k], face.vertices[(k + 1) % 3])) continue;
-      if (!goes_on) {
-        cut = piece.along_edge(face, k);
-        return false;
-      }
-      reached_[other] = search_number_;
-      to_do_.push_back(other);
-    }
-  }
-  return true;
 }
 
 }  // namespace facemap

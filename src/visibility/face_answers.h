@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "visibility/covering_patch.h"
 #include "visibility/face_piece.h"
 #include "visibility/visible_face_search.h"
 
@@ -31,19 +32,16 @@ class FaceAnswers {
 
   Outcome ask(const FacePiece& piece);
   FaceId nearest(const SeenFace& face);
-  bool is_covered_by(const FacePiece& piece, std::uint32_t seed, FacePiece::Cut& cut);
 
   const VisibleFaceSearch& search_;
-  std::size_t work_ = 0;  // steps for the face so far
-  Vector direction_{0};   // of the latest piece asked
+  CoveringPatch patch_;
+  std::size_t boxes_ = 0;  // that rays to the face have looked at
+  Vector direction_{0};    // of the latest piece asked
   std::uint32_t cover_ = 0;
   FacePiece::Cut cut_;  // where what might have covered it ends
   std::vector<FacePiece> pieces_;
   std::vector<std::uint32_t> found_;   // by a ray
   std::vector<std::uint32_t> before_;  // solid faces that the ray meets
-  std::vector<std::uint32_t> to_do_;
-  std::vector<std::uint32_t> reached_;  // a face: in which search of a patch
-  std::uint32_t search_number_ = 0;
 };
 
 }  // namespace facemap

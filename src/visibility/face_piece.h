@@ -73,18 +73,17 @@ class FacePiece {
   /// as near and first in the order of equals.
   bool surely_yields_to(const SeenFace& other) const;
 
-  /// Where the piece should be cut: a linear function at its corners, positive on the side that may be covered. Zero
-  /// up to the slack.
+  /// Where a piece may be cut: a linear function at its corners that is 0 there, up to the slack.
   struct Cut {
     std::array<double, 3> heights{};
     double slack = 0;
   };
 
-  /// Along the edge between corner k and the next, towards the third one; where a plane passes through the piece.
+  /// Along the edge between corner k and the next; where the face's plane passes through the piece.
   Cut along_edge(const SeenFace& other, std::size_t k) const;
   Cut along_plane(const SeenFace& other) const;
 
-  /// Adds pieces that make up this one: it is cut about there, a little more to the positive side, or else in halves.
+  /// Adds pieces that make up this one: it is cut beside such a line, on the side of its middle, or else in halves.
   /// They refer to `whole`, all of the face. Adds nothing if they would be too small.
   void divide(const Cut& cut, const FacePiece& whole, std::vector<FacePiece>& pieces) const;
 

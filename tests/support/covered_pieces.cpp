@@ -169,9 +169,9 @@ bool PieceReferee::comes_before(FaceId other, const Cone& cone) const {
   return wins_ties || !any_equal || on_edge[0] || on_edge[1] || on_edge[2];
 }
 
-std::string PieceReferee::patch_fault_of(const Cone& cone, FaceId cover) const {
+std::string PieceReferee::patch_fault_of(const Cone& cone, FaceId cover, const Vector& direction) const {
   const Mesh& mesh = oracle_.mesh();
-  const int side = sides_[static_cast<std::size_t>(cover)];
+  const auto side_of = [&](FaceId face) { return sides_[static_cast<std::size_t>(face)]; };
   std::set<FaceId> reached{cover};
   std::vector<FaceId> to_do{cover};
   while (!to_do.empty()) {
@@ -185,11 +185,23 @@ std::string PieceReferee::patch_fault_of(const Cone& cone, FaceId cover) const {
       const auto& both = edges_.at(std::minmax(place_of(mesh.vertex(id, k)), place_of(mesh.vertex(id, next))));
       if (both.size() != 2 || both[0].is_forward == both[1].is_forward) return "an edge that does not join two faces";
       const FaceId other = both[both[0].face == face ? 1 : 0].face;
-      if (sides_[static_cast<std::size_t>(other)] != side) return "an outline in the piece";
+      if (side_of(other) == 0) return "a face seen edge-on in the patch";
       if (reached.insert(other).second) to_do.push_back(other);
     }
   }
-  return "";
+  // All turned the same way, or more of those that the direction meets one way than the other.
+  if (std::all_of(reached.begin(), reached.end(), [&](FaceId face) { return side_of(face) == side_of(cover); }))
+    return "";
+  int sum = 0;
+  const BigVector d = big(direction);
+  for (const FaceId face : reached) {
+    const BigVector a = corner(face, 0), b = corner(face, 1), c = corner(face, 2);
+    const mpz_class least = std::min({mpz_class(side_of(face) * det(a, b, d)), mpz_class(side_of(face) * det(b, c, d)),
+                                      mpz_class(side_of(face) * det(c, a, d))});
+    if (least == 0) return "a direction to an edge of the patch";
+    if (least > 0) sum += side_of(face);
+  }
+  return sum != 0 ? "" : "as many faces one way as the other";
 }
 
 std::string PieceReferee::fault_of(FaceId face, const std::vector<CoveredPiece>& pieces) const {
@@ -203,7 +215,7 @@ std::string PieceReferee::fault_of(FaceId face, const std::vector<CoveredPiece>&
         sides_[static_cast<std::size_t>(piece.cover)] == 0)
       return "no cover";
     if (!view.meets(piece.cover, piece.direction)) return "a cover that the direction does not meet";
-    if (std::string fault = patch_fault_of(cone, piece.cover); !fault.empty()) return fault;
+    if (std::string fault = patch_fault_of(cone, piece.cover, piece.direction); !fault.empty()) return fault;
   }
   return "";
 }

@@ -46,7 +46,7 @@ class PieceReferee {
   bool holds(const Cone& cone, const Vector& direction) const;
   bool meets(const Cone& cone, const BigVector& P, const BigVector& Q) const;
   bool comes_before(FaceId other, const Cone& cone) const;
-  std::string patch_fault_of(const Cone& cone, FaceId cover) const;
+  std::string patch_fault_of(const Cone& cone, FaceId cover, const Vector& direction) const;
 
   const Oracle& oracle_;
   const std::vector<std::uint8_t>& is_solid_;
