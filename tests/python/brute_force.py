@@ -87,7 +87,7 @@ class View:
 
     def meets(self, directions: np.ndarray, *, strictly: bool = False) -> np.ndarray:
         """(n, faces) bool: s det(a - O, b - O, d) >= 0 for the three edges; strictly inside: > 0."""
-        return _by_chunks(lambda d: self._meets(d, edge_along, 1 if strictly else 0), len(self.mesh), directions)
+        return by_chunks(lambda d: self._meets(d, edge_along, 1 if strictly else 0), len(self.mesh), directions)
 
     def stand_between(self, points: np.ndarray, own: Optional[np.ndarray] = None,
                       tolerance: float = 0.0) -> np.ndarray:
@@ -96,11 +96,7 @@ class View:
         `own` (n,): the face that never hides the point, or -1. A tolerance of float32: only what the point is farther
         from than this counts.
         """
-        found = _by_chunks(lambda p: self._stand_between(p, tolerance), len(self.mesh), points)
-        if own is not None:
-            has_own = own >= 0
-            found[np.nonzero(has_own)[0], own[has_own]] = False
-        return found
+        return without_own(by_chunks(lambda p: self._stand_between(p, tolerance), len(self.mesh), points), own)
 
     def _meets(self, targets: np.ndarray, edge: Callable[..., Numbers], least: int, *more: Tuple) -> np.ndarray:
         mesh, s, P = self.mesh, self.sides, targets[:, np.newaxis]
@@ -109,12 +105,8 @@ class View:
                                for u, v in ((mesh.a, mesh.b), (mesh.b, mesh.c), (mesh.c, mesh.a))), *more)
 
     def _stand_between(self, points: np.ndarray, tolerance: float) -> np.ndarray:
-        mesh, s, P = self.mesh, self.sides, points[:, np.newaxis]
-        conditions = [(lambda sign: s * sign > 0, height, mesh.a, mesh.b, mesh.c, P)]
-        if tolerance > 0:
-            conditions.append((lambda sign: sign > 0, excess, mesh.a, mesh.b, mesh.c, P,
-                               np.array([tolerance], np.float32)))
-        return self._meets(points, edge_towards, 0, *conditions)
+        P = points[:, np.newaxis]
+        return self._meets(points, edge_towards, 0, *beyond(self.mesh, self.sides, P, tolerance))
 
     # In which order
 
@@ -167,7 +159,23 @@ def _hit_parameter(O: Triple, a: Triple, b: Triple, c: Triple, target: Triple, i
     return dot(n, minus(a, O)) / dot(n, minus(target, O) if is_point else target)
 
 
-def _by_chunks(ask: Callable[[np.ndarray], np.ndarray], face_count: int, questions: np.ndarray) -> np.ndarray:
+def beyond(mesh: Mesh, s: np.ndarray, P: np.ndarray, tolerance: float) -> List[Tuple]:
+    """Conditions that points stand beyond the faces' planes."""
+    conditions: List[Tuple] = [(lambda sign: s * sign > 0, height, mesh.a, mesh.b, mesh.c, P)]
+    if tolerance > 0:
+        conditions.append((lambda sign: sign > 0, excess, mesh.a, mesh.b, mesh.c, P,
+                           np.array([tolerance], np.float32)))
+    return conditions
+
+
+def without_own(found: np.ndarray, own: Optional[np.ndarray]) -> np.ndarray:
+    if own is not None:
+        has_own = own >= 0
+        found[np.nonzero(has_own)[0], own[has_own]] = False
+    return found
+
+
+def by_chunks(ask: Callable[[np.ndarray], np.ndarray], face_count: int, questions: np.ndarray) -> np.ndarray:
     step = max(1, MOST_AT_ONCE // face_count)
     parts = [ask(questions[i:i + step]) for i in range(0, len(questions), step)]
     return np.concatenate(parts) if parts else np.zeros((0, face_count), np.bool_)

@@ -1,8 +1,8 @@
 """Which lights reach what a camera sees, and parallel light, by asking every face.
 
-What a camera K sees along d on a face F is a fraction, P = K + (n . (a - K) / n . d) d. Multiplied by w = |n . d| it is a
-polynomial: w (P - x) = w (K - x) + s (n . (a - K)) d for any point x, with s the side of F about K, which is the sign of
-n . d. Parallel light goes along a direction l; a face's side is then s = sign n . l.
+What a camera K sees along d on a face F is a fraction, P = K + (n . (a - K) / n . d) d. Multiplied by w = |n . d| it is
+a polynomial: w (P - x) = w (K - x) + s (n . (a - K)) d for any point x, with s the side of F about K, which is the sign
+of n . d. Parallel light goes along a direction l; a face's side is then s = sign n . l.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import Callable, List, NamedTuple, Optional
 
 import numpy as np
 
-from brute_force import MOST_AT_ONCE, Mesh, View, height, normal
+from brute_force import MOST_AT_ONCE, Mesh, View, beyond, by_chunks, normal, without_own
 from exact_numbers import Numbers, Triple, all_hold, cross, det, dot, minus, signs
 
 
@@ -68,21 +68,21 @@ class Sun:
         faces_it = (self.sides[seen.faces] == seen.sides) & (seen.sides != 0)
         return faces_it & ~_is_hidden(self.mesh, self.sides, seen, _edge_along, self.direction)
 
-    def stand_before(self, points: np.ndarray, own: Optional[np.ndarray] = None) -> np.ndarray:
-        """(n, faces) bool: which faces stand strictly between each point and where the light comes from."""
+    def stand_before(self, points: np.ndarray, own: Optional[np.ndarray] = None, tolerance: float = 0.0) -> np.ndarray:
+        """(n, faces) bool: which faces stand strictly between each point and where the light comes from; own faces
+        and the tolerance as of View.stand_between."""
+        return without_own(by_chunks(lambda p: self._stand_before(p, tolerance), len(self.mesh), points), own)
+
+    def _stand_before(self, points: np.ndarray, tolerance: float) -> np.ndarray:
         mesh, s, P = self.mesh, self.sides, points[:, np.newaxis]
 
         def edge(P: Triple, u: Triple, v: Triple, l: Triple) -> Numbers:
             return det(minus(u, P), minus(v, P), l)
 
-        found = all_hold(np.broadcast_to(s != 0, (len(points), len(mesh))),
-                         *((lambda sign: s * sign >= 0, edge, P, u, v, self.direction)
-                           for u, v in ((mesh.a, mesh.b), (mesh.b, mesh.c), (mesh.c, mesh.a))),
-                         (lambda sign: s * sign > 0, height, mesh.a, mesh.b, mesh.c, P))
-        if own is not None:
-            has_own = own >= 0
-            found[np.nonzero(has_own)[0], own[has_own]] = False
-        return found
+        return all_hold(np.broadcast_to(s != 0, (len(points), len(mesh))),
+                        *((lambda sign: s * sign >= 0, edge, P, u, v, self.direction)
+                          for u, v in ((mesh.a, mesh.b), (mesh.b, mesh.c), (mesh.c, mesh.a))),
+                        *beyond(mesh, s, P, tolerance))
 
 
 def _is_hidden(mesh: Mesh, sides: np.ndarray, seen: Seen, edge: Callable[..., Numbers],

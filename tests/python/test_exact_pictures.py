@@ -77,7 +77,8 @@ def test_pixels_equal_brute_force(random):
 
         pixels = np.nonzero(truth >= 0)[0]
         seen = Seen(origin, directions[pixels], truth[pixels], referee.sides[truth[pixels]])
-        reaches = [lit_by_point(Referee(mesh, lamp), seen) for lamp in lamps] + [Sun(mesh, sun).lit(seen) for sun in suns]
+        reaches = [lit_by_point(Referee(mesh, lamp), seen) for lamp in lamps]
+        reaches += [Sun(mesh, sun).lit(seen) for sun in suns]
         mask = frame.light_mask.reshape(len(truth), len(lights))
         assert not mask[truth < 0].any(), case
         for k, by_light in enumerate(reaches):

@@ -1,8 +1,8 @@
 """What others leave of a face, seen from a point: exact, in whole numbers.
 
-A direction within a face's cone is a mean of its corners, with weights w: d = w0 (a - O) + w1 (b - O) + w2 (c - O). Each
-condition of another face standing before it (three edges, and which plane is nearer along d) is linear in d, hence in
-w. So the face is a triangle of weights, from which convex pieces are cut away.
+A direction within a face's cone is a mean of its corners, with weights w: d = w0 (a - O) + w1 (b - O) + w2 (c - O).
+Each condition of another face standing before it (three edges, and which plane is nearer along d) is linear in d, hence
+in w. So the face is a triangle of weights, from which convex pieces are cut away.
 """
 
 from __future__ import annotations
