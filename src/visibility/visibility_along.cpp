@@ -17,6 +17,16 @@ namespace {
 constexpr std::size_t kFewestPoints = 1024;
 static_assert(kFewestPoints % 8 == 0);
 
+// A map is made for these points alone: about one texel a point, within these. With fewer points than texels most of
+// its time goes into lists that nobody reads.
+constexpr double kFewestTexels = 32, kMostTexels = 2048;  // a side
+
+// 0: what suits the faces, which is enough for any number of points.
+int texels_for(std::size_t points, std::size_t faces) {
+  const double by_points = std::clamp(std::sqrt(static_cast<double>(points)), kFewestTexels, kMostTexels);
+  return points < faces ? static_cast<int>(by_points) : 0;
+}
+
 bool is_direction(const Vector& d) {
   return std::isfinite(double{d.x} + d.y + d.z) && (d.x != 0 || d.y != 0 || d.z != 0);
 }
@@ -64,7 +74,9 @@ class Asking {
   ParallelLight light_of(std::size_t direction) const {
     return {scene_,
             -directions_[direction],
-            {.cut_outs = options_.cut_outs, .max_texture_pixels = options_.max_texture_pixels}};
+            {.texels = texels_for(targets_.points.size(), scene_.face_count()),
+             .cut_outs = options_.cut_outs,
+             .max_texture_pixels = options_.max_texture_pixels}};
   }
 
   // Bytes of its map.
