@@ -1,4 +1,4 @@
-// The question of binding.py in C++ alone, without threads or interruptions of the module's own.
+// The question of binding_overhead.py in C++ alone, without threads or interruptions of the module's own.
 #include <facemap/scene.h>
 #include <facemap/viewpoint.h>
 #include <pybind11/numpy.h>

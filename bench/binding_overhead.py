@@ -1,6 +1,6 @@
 """What the Python module adds to a call of the library: View.visible beside the same in C++, in turns.
 
-    PYTHONPATH=build/release/python:build/release/bench python3 bench/binding.py
+    PYTHONPATH=build/release/python:build/release/bench python3 bench/binding_overhead.py
 """
 
 import argparse
