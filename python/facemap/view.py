@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, Callable, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 
 from . import _checks, _facemap
+from .frame import Frame
 from .scene import Scene
 
 MOST_TEXTURE_PIXELS = 1 << 26
@@ -239,6 +241,43 @@ class View:
         """
         flat, _ = _flat("directions", directions)
         return AllHits(*self._core.all_hits(flat))
+
+    def image(self, width: int = 1024, height: int = 1024, field_angle: float = 360.0, sight: Any = None) -> Frame:
+        """A picture of the map: the darker a pixel, the more faces lie in its direction (Wang 2022, Fig. 9).
+
+        The distance from the middle is the angle from the sight. Pixels without a direction are pale blue.
+
+        Parameters
+        ----------
+        width, height : int
+            Pixels, 1 to 32768.
+        field_angle : float
+            Degrees across the shorter side, above 0 to 360: all directions.
+        sight : three floats
+            The direction in the middle. None: towards the middle of the scene.
+
+        Returns
+        -------
+        Frame
+            With ``face_id`` and ``range`` of the nearest face.
+
+        Raises
+        ------
+        TypeError, ValueError
+            Naming the argument.
+
+        Examples
+        --------
+        >>> view.image(512, 512).save("map.png")
+        """
+        size = _checks.whole("width", width, 1, 32768), _checks.whole("height", height, 1, 32768)
+        angle = _checks.finite_number("field_angle", field_angle)
+        if not 0 < angle <= 360:
+            raise ValueError(f"field_angle: {angle} is not above 0 and at most 360 degrees")
+        middle = (0.0, 0.0, 0.0) if sight is None else _checks.direction("sight", sight)
+        with _checks.named("sight"):
+            image = self._core.image(*size, math.radians(angle), middle)
+        return Frame(image, ("range", "face_id"))
 
     def visible_faces(self) -> VisibleFaces:
         """Which faces are visible, each with a direction that sees it, and which are hidden.

@@ -77,6 +77,14 @@ class KeptView {
                           given<float>(std::move(hits.distances)));
   }
 
+  std::shared_ptr<Image> image(int width, int height, double field_angle, const Triple& sight) const {
+    auto image = std::make_shared<Image>();
+    ask(kFew + 1, [&](const Viewpoint::Progress& p) {
+      *image = view_.image({width, height, field_angle, vector_of(sight)}, p);
+    });
+    return image;
+  }
+
   py::tuple visible_faces() const {
     VisibleFaces found;
     ask(kFew + 1, [&](const Viewpoint::Progress& p) { found = view_.visible_faces(p); });
@@ -165,6 +173,7 @@ void bind_views(py::module_& module) {
       .def("blocked_by", &KeptView::blocked_by, py::arg("points").noconvert(), py::arg("faces").noconvert())
       .def("nearest", &KeptView::nearest, py::arg("directions").noconvert())
       .def("all_hits", &KeptView::all_hits, py::arg("directions").noconvert())
+      .def("image", &KeptView::image, py::arg("width"), py::arg("height"), py::arg("field_angle"), py::arg("sight"))
       .def("visible_faces", &KeptView::visible_faces)
       .def("visible_vertices", &KeptView::visible_vertices)
       .def("covered_pieces", &KeptView::covered_pieces, py::arg("face"))

@@ -65,6 +65,21 @@ def test_visible_and_hidden_faces_come_with_reasons(floor):
         view.covered_pieces(4)
 
 
+def test_the_picture_of_a_map_is_the_programs(program, bust, tmp_path):
+    program("scene", "bust", "-o", tmp_path / "bust.obj")
+    program("map", tmp_path / "bust.obj", "--at", "0.5,1.5,2", "-o", tmp_path / "map.npy", "--size", "64x64")
+    view = facemap.View(bust, (0.5, 1.5, 2))
+    frame = view.image(64, 64)
+    assert np.array_equal(frame.color, np.load(tmp_path / "map.npy")[:64])  # the program's legend lies below
+    assert frame.planes == ("range", "face_id") and (frame.face_id >= 0).any()
+    assert np.array_equal(frame.face_id < 0, np.isinf(frame.range))
+    assert view.image(9, 8, 90, (0, 1, 0)).image.shape == (8, 9, 3)
+    with pytest.raises(ValueError, match="field_angle"):
+        view.image(8, 8, 361)
+    with pytest.raises(ValueError, match="sight"):
+        view.image(8, 8, sight=(0, 0, 0))
+
+
 def test_arrays_that_fit_are_not_copied():
     points = np.zeros((10, 3), np.float32)
     assert _checks.floats("points", points) is points
