@@ -7,6 +7,7 @@
 
 #include "simd/floating_point_mode.h"
 #include "visibility/pieces.h"
+#include "visibility/ray_order.h"
 #include "visibility/viewpoint_parts.h"
 
 namespace facemap {
@@ -41,10 +42,14 @@ void Viewpoint::blocked_by(const Targets& targets, std::span<FaceId> blockers, c
     return is_none ? RayMap::kSkipNone : static_cast<std::uint32_t>(targets.faces[i]);
   };
   const RayLists& near = kept_->near_lists();
+  const DVector origin(kept_->origin);
+  const RayOrder order(kept_->executor, count, near.cells(),
+                       [&](std::size_t i) { return near.cell_of(DVector(targets.points[i]) - origin); });
   std::vector<std::size_t> open;
   std::mutex adding;
   for_pieces(kept_->executor, count, kPiece, progress, [&](std::size_t first, std::size_t last, std::size_t) {
-    for (std::size_t i = first; i < last; ++i) {
+    for (std::size_t place = first; place < last; ++place) {
+      const std::size_t i = order[place];
       const std::optional<FaceId> blocker = near.first_blocker(targets.points[i], skip_of(i));
       blockers[i] = blocker.value_or(kNoFace);
       if (blocker) continue;

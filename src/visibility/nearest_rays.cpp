@@ -1,5 +1,6 @@
 #include "simd/floating_point_mode.h"
 #include "visibility/pieces.h"
+#include "visibility/ray_order.h"
 #include "visibility/viewpoint_parts.h"
 
 namespace facemap {
@@ -16,9 +17,12 @@ void Viewpoint::nearest(std::span<const Vector> directions, std::span<FaceId> fa
   check_size(distances.size(), directions.size());
   if (directions.empty()) return;
   const RayLists& lists = kept_->near_lists();
+  const RayOrder order(kept_->executor, directions.size(), lists.cells(),
+                       [&](std::size_t i) { return lists.cell_of(DVector(directions[i])); });
   for_pieces(kept_->executor, directions.size(), kPiece, progress,
              [&](std::size_t first, std::size_t last, std::size_t) {
-               for (std::size_t i = first; i < last; ++i) {
+               for (std::size_t place = first; place < last; ++place) {
+                 const std::size_t i = order[place];
                  const Camera::Hit hit = lists.nearest(directions[i]);
                  faces[i] = hit.face;
                  distances[i] = hit.depth;

@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::size_t kSides = 6;  // of a cube: +x, -x, +y, -y, +z, -z
 
+constexpr std::size_t kCell = 8;  // texels a side
+
 // Share by which the raster of a side is wider than the side: no rounding leads out of it.
 constexpr double kRim = 1e-3;
 
@@ -40,6 +42,7 @@ RayLists::RayLists(const MapFaces& faces, const Vector& origin, const std::share
   const Projection before = light_projection(faces.all(), frame, {});
   if (before.kind() == ProjectionKind::Plane) {
     maps_.push_back(std::make_unique<const RayMap>(faces, frame, before, planes, keep_all));
+    count_cells();
     return;
   }
   const int texels = texels_of_side(faces.all().kept_faces().size());
@@ -48,11 +51,23 @@ RayLists::RayLists(const MapFaces& faces, const Vector& origin, const std::share
   executor.for_each(kSides, [&](std::size_t i, int) {
     maps_[i] = std::make_unique<const RayMap>(faces, frame_of_side(origin, i), side, planes, keep_all);
   });
+  count_cells();
+}
+
+void RayLists::count_cells() {
+  cell_columns_ = static_cast<std::size_t>(maps_[0]->width()) / kCell + 1;
+  cell_rows_ = static_cast<std::size_t>(maps_[0]->height()) / kCell + 1;
 }
 
 // Whichever for what is not finite: it has no texel anywhere.
-const RayMap& RayLists::map_of(const DVector& direction) const {
-  return maps_.size() == 1 ? *maps_[0] : *maps_[side_of(direction)];
+std::size_t RayLists::map_number(const DVector& direction) const { return maps_.size() == 1 ? 0 : side_of(direction); }
+
+std::uint32_t RayLists::cell_of(const DVector& direction) const {
+  const std::size_t map = map_number(direction);
+  const std::optional<FaceMap::Texel> texel = maps_[map]->texel_of(direction);
+  if (!texel) return 0;
+  const std::size_t row = map * cell_rows_ + static_cast<std::size_t>(texel->y) / kCell;
+  return static_cast<std::uint32_t>(row * cell_columns_ + static_cast<std::size_t>(texel->x) / kCell);
 }
 
 Camera::Hit RayLists::nearest(const Vector& direction) const { return map_of(DVector(direction)).nearest(direction); }

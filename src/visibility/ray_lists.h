@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -25,14 +27,22 @@ class RayLists {
   void meet_all(const Vector& direction, std::vector<Meeting>& meetings) const;
   int count_hits(const Vector& direction) const;
 
+  /// Directions by where they lie, below cells(): those of one cell have lists of the same faces mostly. Any for a
+  /// direction without a list.
+  std::uint32_t cell_of(const DVector& direction) const;
+  std::size_t cells() const { return maps_.size() * cell_rows_ * cell_columns_; }
+
   /// Bytes of the lists, the planes not counted.
   std::size_t memory_bytes() const;
 
  private:
-  const RayMap& map_of(const DVector& direction) const;
+  void count_cells();
+  std::size_t map_number(const DVector& direction) const;
+  const RayMap& map_of(const DVector& direction) const { return *maps_[map_number(direction)]; }
 
   Vector origin_;
   std::vector<std::unique_ptr<const RayMap>> maps_;
+  std::size_t cell_columns_ = 0, cell_rows_ = 0;  // of one map
 };
 
 }  // namespace facemap

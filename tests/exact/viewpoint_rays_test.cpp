@@ -382,6 +382,48 @@ TEST(ViewpointRays, ProgressRisesToOneAndStops) {
   }
 }
 
+// So many at once are asked in an order of their own; so few as they come.
+TEST(ViewpointRays, ManyAtOnceAreAnsweredAsFewAre) {
+  Random random(0x5eed0504);
+  const TestScene test = test_scenes::make_scene(test_scenes::Kind::Soup, 300, random);
+  const Scene scene(test.mesh);
+  const std::vector<Vector> directions = some_directions(50'000);
+  constexpr std::size_t kFew = 5000;
+  for (const bool is_inside : {false, true}) {
+    const double away = is_inside ? 0.1 : 3;
+    const Vector origin(test.centre.x, test.centre.y, static_cast<float>(test.centre.z + away * test.radius));
+    for (const int threads : {1, 2, 3}) {
+      Viewpoint::Options options;
+      options.threads = threads;
+      const Viewpoint viewpoint(scene, origin, options);
+      std::vector<Vector> points;
+      for (const Vector& d : directions) points.push_back(origin + static_cast<float>(2 * test.radius) * d);
+      std::vector<FaceId> faces(directions.size()), blockers(directions.size());
+      std::vector<float> distances(directions.size());
+      viewpoint.nearest(directions, faces, distances);
+      viewpoint.blocked_by({points}, blockers);
+      const AllHits hits = viewpoint.all_hits(directions);
+      EXPECT_GT(std::count_if(faces.begin(), faces.end(), [](FaceId face) { return face != kNoFace; }), 300);
+      for (std::size_t first = 0; first < directions.size(); first += kFew) {
+        const std::span<const Vector> few(&directions[first], kFew);
+        std::vector<FaceId> few_faces(kFew), few_blockers(kFew);
+        std::vector<float> few_distances(kFew);
+        viewpoint.nearest(few, few_faces, few_distances);
+        viewpoint.blocked_by({{&points[first], kFew}}, few_blockers);
+        const AllHits few_hits = viewpoint.all_hits(few);
+        EXPECT_TRUE(std::equal(few_faces.begin(), few_faces.end(), &faces[first]));
+        EXPECT_TRUE(std::equal(few_distances.begin(), few_distances.end(), &distances[first]));
+        EXPECT_TRUE(std::equal(few_blockers.begin(), few_blockers.end(), &blockers[first]));
+        const std::size_t begin = hits.begins[first];
+        ASSERT_EQ(few_hits.faces.size(), hits.begins[first + kFew] - begin);
+        EXPECT_TRUE(std::equal(few_hits.faces.begin(), few_hits.faces.end(), hits.faces.begin() + begin));
+        EXPECT_TRUE(std::equal(few_hits.distances.begin(), few_hits.distances.end(), hits.distances.begin() + begin));
+        for (std::size_t i = 0; i <= kFew; ++i) ASSERT_EQ(few_hits.begins[i] + begin, hits.begins[first + i]);
+      }
+    }
+  }
+}
+
 TEST(ViewpointRays, SeveralThreadsMayAskTogether) {
   const Scene scene = room(1);
   const std::vector<Vector> directions = some_directions(3000);
