@@ -125,6 +125,11 @@ def test_viewshed_is_what_views_see(random):
     masts = (land.vertices + [0, 1.5, 0]).astype(np.float32)
     lifted = np.array([facemap.View(land, eye).visible(masts) for eye in eyes])
     assert np.array_equal(facemap.viewshed(land, observers, target_height=1.5), lifted.sum(axis=0))
+    corners = land.vertices[land.faces].astype(float)
+    middles = corners.mean(axis=1).astype(np.float32)
+    own = np.arange(land.face_count)
+    on_faces = np.array([facemap.View(land, eye).visible(middles, own) for eye in eyes])
+    assert np.array_equal(facemap.viewshed(land, observers, middles, faces=own), on_faces.sum(axis=0))
     grid = masts.reshape(12, 15, 3)
     assert np.array_equal(facemap.viewshed(land, observers, grid), lifted.sum(axis=0).reshape(12, 15))
 
@@ -238,6 +243,7 @@ def test_a_rig_is_its_cameras_one_by_one(bust):
     (lambda s: facemap.viewshed(s, [[5, 0, 5]]), ValueError, "observers: there is no ground"),
     (lambda s: facemap.viewshed(s, [[0, 0, 0]], of="edges"), ValueError, "of"),
     (lambda s: facemap.viewshed(s, [[0, 0, 0]], of="faces", target_height=1), ValueError, "of"),
+    (lambda s: facemap.viewshed(s, [[0, 0, 0]], faces=[0]), ValueError, "faces"),
     (lambda s: facemap.viewshed(s, [[0, 0, 0]], eye_height="tall"), TypeError, "eye_height"),
     (lambda s: facemap.lamp_coverage(s, [[0, 0, 0]], 7), TypeError, "lamps"),
     (lambda s: facemap.lamp_coverage(s, [[0, 0, 0]], [[0, 0]]), ValueError, "lamps"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, Optional
+from typing import Any, Callable, Dict, Optional
 
 import numpy as np
 
@@ -15,7 +15,8 @@ from .ground import on_ground
 
 def viewshed(terrain: Scene, observers: Any, points: Any = None, *, of: str = "vertices", eye_height: float = 1.7,
              target_height: float = 0.0, stand: bool = True, max_distance: Optional[float] = None, each: bool = False,
-             up: Any = None, threads: int = 0, progress: Optional[Callable[[float, str], Any]] = None) -> np.ndarray:
+             faces: Any = None, tolerance: float = 0.0, up: Any = None, threads: int = 0,
+             progress: Optional[Callable[[float, str], Any]] = None) -> np.ndarray:
     """From how many observers each vertex, point or face of a terrain is seen.
 
     Exact for the float32 numbers given: a vertex is not hidden by the faces that it belongs to, and grazing lines of
@@ -45,6 +46,8 @@ def viewshed(terrain: Scene, observers: Any, points: Any = None, *, of: str = "v
         World units: what is farther from an observer's eye does not count. Not for faces. None: no limit.
     each : bool
         Whether to tell of each observer, instead of counting them.
+    faces, tolerance
+        As of View.visible, for `points` that lie on the terrain up to rounding.
     up : three floats
         None: as the scene's file says, else (0, 1, 0).
     threads, progress
@@ -70,6 +73,8 @@ def viewshed(terrain: Scene, observers: Any, points: Any = None, *, of: str = "v
     eyes, shape = _eyes(terrain, observers, _checks.finite_number("eye_height", eye_height),
                         _checks.truth("stand", stand), middle)
     lift = _checks.finite_number("target_height", target_height)
+    if points is None and faces is not None:
+        raise ValueError("faces: they are for points, and none are given")
     if points is None and _checks.choice("of", of, ("vertices", "faces")) == "faces":
         if lift != 0 or max_distance is not None:
             raise ValueError("of: faces take no target_height and no max_distance")
@@ -77,7 +82,9 @@ def viewshed(terrain: Scene, observers: Any, points: Any = None, *, of: str = "v
         return _gathered(rows, shape, (terrain.face_count,), _checks.truth("each", each))
     flat, targets_shape = _arrays.points_of(terrain.vertices if points is None else points)
     targets = flat if lift == 0 else (flat + lift * middle).astype(np.float32)
-    rows = _rows(terrain, eyes, targets, max_distance, threads, progress)
+    own = None if points is None else _arrays.flat_faces(faces, targets_shape, terrain.face_count)
+    options = dict(faces=own, tolerance=tolerance, threads=threads)
+    rows = _rows(terrain, eyes, targets, max_distance, options, progress)
     if points is None:
         is_used = np.zeros(len(flat), np.bool_)
         is_used[terrain.faces.reshape(-1)] = True
@@ -97,13 +104,13 @@ def _eyes(terrain: Scene, observers: Any, height: float, stand: bool, up: np.nda
     return eyes, shape
 
 
-def _rows(terrain: Scene, eyes: np.ndarray, targets: np.ndarray, max_distance: Optional[float], threads: int,
-          progress: Any) -> Any:
+def _rows(terrain: Scene, eyes: np.ndarray, targets: np.ndarray, max_distance: Optional[float],
+          options: Dict[str, Any], progress: Any) -> Any:
     """What each eye sees, one after the other."""
     reach = None if max_distance is None else _checks.number("max_distance", max_distance)
     for part in _arrays.blocks(len(eyes), len(targets)):
-        packed = visibility(terrain, eyes[part], targets, packed=True, threads=threads,
-                            progress=_arrays.part_of(progress, part, len(eyes)))
+        told = _arrays.part_of(progress, part, len(eyes))
+        packed = visibility(terrain, eyes[part], targets, packed=True, progress=told, **options)
         for eye, row in zip(eyes[part], packed):
             seen = _arrays.bools(row, len(targets))
             if reach is not None:
