@@ -6,7 +6,7 @@ import contextlib
 import math
 import operator
 import os
-from typing import Any, Iterable, Iterator, Optional, Sequence, Tuple
+from typing import Any, Iterable, Iterator, List, Optional, Sequence, Tuple
 
 import numpy as np
 
@@ -71,7 +71,7 @@ def number(name: str, value: Any) -> float:
         if isinstance(value, (str, bytes, bool, np.bool_)):
             raise TypeError("it is text or a truth value")
         found = float(value)
-    except (TypeError, ValueError, OverflowError) as error:
+    except Exception as error:
         raise TypeError(f"{name}: a number is needed, not {_shown(value)}") from error
     if math.isnan(found):
         raise ValueError(f"{name}: a number is needed, not NaN")
@@ -91,7 +91,7 @@ def whole(name: str, value: Any, least: int, most: int) -> int:
         if isinstance(value, (bool, np.bool_)):
             raise TypeError("it is a truth value")
         found = operator.index(value)
-    except TypeError as error:
+    except Exception as error:
         raise TypeError(f"{name}: a whole number is needed, not {_shown(value)}") from error
     if not least <= found <= most:
         raise ValueError(f"{name}: {found} is none of {least} .. {most}")
@@ -173,6 +173,16 @@ def choice(name: str, value: Any, choices: Iterable[str]) -> str:
     if value not in known:
         raise ValueError(f"{name}: {value!r} is none of {', '.join(known)}")
     return value
+
+
+def choices(name: str, value: Any, known: Iterable[str]) -> List[str]:
+    """A sequence of some of them."""
+    if isinstance(value, str):
+        value = [value]
+    try:
+        return [choice(name, each, known) for each in value]
+    except TypeError as error:
+        raise TypeError(f"{name}: a sequence of names is needed, not {_shown(value)}") from error
 
 
 def member(name: str, value: Any, enumeration: Any) -> Any:

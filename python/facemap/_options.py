@@ -109,9 +109,6 @@ def _set_samples(options: Options, samples: Union[int, str]) -> None:
 
 
 def _plane_names(planes: Union[str, Sequence[str]]) -> List[str]:
-    if isinstance(planes, str):
-        planes = list(PLANES) if planes == "all" else [planes]
-    try:
-        return [_checks.choice("planes", name, PLANES) for name in planes]
-    except TypeError as error:
-        raise TypeError(f"planes: names are needed: {error}") from error
+    if isinstance(planes, str) and planes == "all":
+        return list(PLANES)
+    return _checks.choices("planes", planes, PLANES)

@@ -222,6 +222,7 @@ class Frame:
 
     def _encoded(self, kind: str, bits: int, quality: int, display: _facemap.Display, layers: Sequence[str],
                  threads: int) -> bytes:
+        layers = _checks.choices("layers", layers, PLANES)
         if layers and kind != "exr":
             raise ValueError("layers: only an EXR file has layers")
         if kind == "png":
@@ -232,7 +233,7 @@ class Frame:
             return self._image.jpeg(display, quality, threads)
         if kind == "exr":
             for layer in layers:
-                self._check(_checks.choice("layers", layer, PLANES))
+                self._check(layer)
             return self._image.exr(bits == 16, [PLANES[layer] for layer in layers], threads)
         return self._image.pfm() if kind == "pfm" else self._image.npy()
 

@@ -6,7 +6,11 @@ import math
 from dataclasses import dataclass
 from typing import Sequence, Union
 
+import numpy as np
+
 from . import _checks, _facemap
+
+_LARGEST = float(np.finfo(np.float32).max)
 
 Color = Union[Sequence[float], str]
 
@@ -75,12 +79,14 @@ class Light:
         light.kind = _checks.member("kind", self.kind, _facemap.Light.Kind)
         light.position = _checks.triple("position", self.position)
         light.color = _checks.color("color", self.color)
-        light.intensity = _at_least_0("intensity", self.intensity)
+        light.intensity = _between("intensity", self.intensity, _LARGEST)
         light.direction = _checks.direction("direction", self.direction)
-        light.inner_angle = math.radians(_checks.finite_number("inner_angle", self.inner_angle))
-        light.outer_angle = math.radians(_checks.finite_number("outer_angle", self.outer_angle))
+        light.outer_angle = math.radians(_between("outer_angle", self.outer_angle, 180))
+        light.inner_angle = math.radians(_between("inner_angle", self.inner_angle, self.outer_angle))
         light.has_falloff = _checks.truth("falloff", self.falloff)
         light.range = _checks.number("range", self.range)
+        if not light.range > 0:
+            raise ValueError(f"range: {self.range} is not above 0")
         return light
 
     @classmethod
@@ -94,8 +100,8 @@ def degrees(radians: float) -> float:
     return float(f"{radians * (180 / math.pi):.13g}")
 
 
-def _at_least_0(name: str, value: float) -> float:
+def _between(name: str, value: float, most: float) -> float:
     found = _checks.finite_number(name, value)
-    if found < 0:
-        raise ValueError(f"{name}: {found} is below 0")
+    if not 0 <= found <= most:
+        raise ValueError(f"{name}: {found} is none of 0 .. {most}")
     return found
