@@ -17,8 +17,8 @@ void FirstBlocker::meet(std::uint32_t id, int side) {
   if (face_ != kNoFace) {
     int order = (share - share_).sign();
     if (order != 1 && order != -1) order = compare_depth_towards(corners, side, corners_, side_, O_, P_);
-    if (order == 0)
-      order = side != side_ ? side - side_ : face - face_;  // turned towards the origin, then the lower id
+    // Of those at the same distance the one turned towards the origin, then the lower id.
+    if (order == 0) order = side != side_ ? side - side_ : face - face_;
     if (order > 0) return;
   }
   face_ = face;
