@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "picture/bytes_of.h"
 #include "picture/unset_vector.h"
 #include "simd/listed_points.h"
 
@@ -27,6 +28,12 @@ struct AskedPoints {
 
   std::size_t size() const noexcept { return x.size(); }
 };
+
+/// Of coordinates, faces and samples.
+inline std::size_t bytes_of(const AskedPoints& points) {
+  return bytes_of(points.x) + bytes_of(points.y) + bytes_of(points.z) + bytes_of(points.faces) +
+         bytes_of(points.samples);
+}
 
 /// For kernels.
 inline simd::PointArrays arrays_of(const AskedPoints& points) {

@@ -70,17 +70,6 @@ void start(const simd::PointBox& box, std::span<const Vector> of, AskedPoints& p
   points.given = floats_of(of);
 }
 
-// Points whose coordinates and faces are to share large pages.
-AskedPoints on_shared_pages(std::size_t count) {
-  const auto pages = std::make_shared<SharedPages>(4 * SharedPages::room_for<std::int32_t>(count));
-  AskedPoints points;
-  for (auto* coordinates : {&points.x, &points.y, &points.z}) {
-    *coordinates = UnsetVector<std::int32_t>(UnsetAllocator<std::int32_t>(pages));
-  }
-  points.faces = UnsetVector<std::uint32_t>(UnsetAllocator<std::uint32_t>(pages));
-  return points;
-}
-
 std::uint32_t own_face(const Scene& scene, const Viewpoint::Targets& targets, std::size_t point) {
   const FaceId face = targets.faces[point];
   if (face == kNoFace) return kNoOwnFace;
@@ -106,10 +95,20 @@ void fill(const Scene& scene, const Viewpoint::Targets& targets, std::size_t fir
 
 }  // namespace
 
+AskedPoints points_with_room(std::size_t count) {
+  const auto pages = std::make_shared<SharedPages>(4 * SharedPages::room_for<std::int32_t>(count));
+  AskedPoints points;
+  for (auto* coordinates : {&points.x, &points.y, &points.z}) {
+    *coordinates = UnsetVector<std::int32_t>(UnsetAllocator<std::int32_t>(pages));
+  }
+  points.faces = UnsetVector<std::uint32_t>(UnsetAllocator<std::uint32_t>(pages));
+  return points;
+}
+
 AskedPoints asked_points(const Scene& scene, const Viewpoint::Targets& targets, std::size_t first, std::size_t last,
                          const Executor& executor) {
   if (first == last) return {};
-  AskedPoints points = on_shared_pages(last - first);
+  AskedPoints points = points_with_room(last - first);
   const std::span<const Vector> some = targets.points.subspan(first, last - first);
   start(box_of(some, executor), some, points);
   for_ranges(executor, last - first, kFewestPoints, [&](std::size_t begin, std::size_t end, int) {

@@ -15,6 +15,9 @@ AskedPoints asked_points(const Scene& scene, const Viewpoint::Targets& targets, 
 void put_points(const Scene& scene, const Viewpoint::Targets& targets, std::size_t first, std::size_t last,
                 AskedPoints& points);
 
+/// Points without memory of their own yet: `count` of them will stand on large pages.
+AskedPoints points_with_room(std::size_t count);
+
 /// Throws Error as Viewpoint::visible does for targets whose sizes differ, and for the tolerance.
 void check_targets(const Viewpoint::Targets& targets);
 

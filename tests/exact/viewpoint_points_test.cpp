@@ -31,6 +31,9 @@ using test_scenes::TestScene;
 
 constexpr int kLargestFaceCount = 60;
 
+// So many points are sorted before they are asked about.
+constexpr std::size_t kManyPoints = 70000;
+
 // How a viewpoint comes to its answers.
 enum class Way { Cold, Warm, Singly };
 constexpr Way kWays[] = {Way::Cold, Way::Warm, Way::Singly};
@@ -90,7 +93,7 @@ class Session {
   void compare(const TestScene& test, const Scene& scene, const oracle::Oracle& oracle) {
     const Vector origin = test_scenes::make_origin(test, random_);
     const oracle::View truth = oracle.from(origin);
-    const Questions questions = make_questions(test, scene, oracle, truth);
+    Questions questions = make_questions(test, scene, oracle, truth);
     std::vector<std::uint8_t> expected;
     for (std::size_t i = 0; i < questions.points.size(); ++i) {
       const FaceId own = questions.faces.empty() ? kNoFace : questions.faces[i];
@@ -98,10 +101,13 @@ class Session {
       visible_ += expected.back();
     }
     points_ += questions.points.size();
+    const bool is_repeated = !questions.points.empty() && random_.chance(0.04);
+    if (is_repeated) repeat(questions, expected);
     const std::vector<simd::Target> targets = simd::supported_targets();
     simd::set_active_target(targets[static_cast<std::size_t>(random_.below(static_cast<int>(targets.size())))]);
     const Viewpoint viewpoint(scene, origin, {random_.between(1, 3)});
     for (const Way way : kWays) {
+      if (is_repeated && way == Way::Singly) continue;
       const auto visible = ask(viewpoint, {questions.points, questions.faces, questions.tolerance}, way);
       for (std::size_t i = 0; i < visible.size(); ++i) {
         if (visible[i] == expected[i]) continue;
@@ -134,6 +140,15 @@ class Session {
       if (!std::isfinite(questions.tolerance)) questions.tolerance = 0;
     }
     return questions;
+  }
+
+  // The same points again and again.
+  static void repeat(Questions& questions, std::vector<std::uint8_t>& expected) {
+    for (std::size_t i = 0; expected.size() < kManyPoints; ++i) {
+      questions.points.push_back(Vector(questions.points[i]));
+      if (!questions.faces.empty()) questions.faces.push_back(FaceId(questions.faces[i]));
+      expected.push_back(std::uint8_t(expected[i]));
+    }
   }
 
   Vector make_point(const TestScene& test, const oracle::Oracle& oracle, const oracle::View& truth) {
