@@ -8,8 +8,8 @@
 namespace facemap {
 namespace {
 
-constexpr std::size_t kMostFaces = 1 << 14;
-constexpr std::size_t kMostAcrossOutlines = 128;  // where outlines end, few faces meet
+// Where outlines end few faces meet: a patch that goes on for long seldom covers anything.
+constexpr std::size_t kShareAcrossOutlines = 32;
 
 }  // namespace
 
@@ -19,10 +19,10 @@ CoveringPatch::CoveringPatch(const Scene& scene, const Vector& origin, const std
 
 // Of faces that are all turned the same way, or else of both.
 bool CoveringPatch::covers(const FacePiece& piece, std::uint32_t seed, const Vector& direction, FacePiece::Cut& cut) {
-  const End end = spread(piece, seed, kMostFaces, false, cut);
+  const End end = spread(piece, seed, most_faces_, false, cut);
   if (end != End::Outline) return end == End::None;
   FacePiece::Cut other;
-  return spread(piece, seed, kMostAcrossOutlines, true, other) == End::None && has_sum(direction);
+  return spread(piece, seed, most_faces_ / kShareAcrossOutlines, true, other) == End::None && has_sum(direction);
 }
 
 // Goes from face to face across edges that the piece may meet.

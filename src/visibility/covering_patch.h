@@ -24,6 +24,9 @@ class CoveringPatch {
   /// `cut` tells of a line where something ends.
   bool covers(const FacePiece& piece, std::uint32_t seed, const Vector& direction, FacePiece::Cut& cut);
 
+  /// How many faces a patch may have, about: less if it has outlines.
+  void allow(std::size_t most_faces) { most_faces_ = most_faces; }
+
   /// Faces looked at so far.
   std::size_t steps() const { return steps_; }
 
@@ -37,7 +40,7 @@ class CoveringPatch {
   Vector origin_;
   const std::vector<std::int8_t>& sides_;
   const std::vector<FaceNeighbours>& neighbours_;
-  std::size_t steps_ = 0;
+  std::size_t most_faces_ = 0, steps_ = 0;
   std::vector<std::uint32_t> patch_;  // those looked at
   std::vector<std::uint32_t> to_do_;
   std::vector<std::uint32_t> reached_;  // a face: by which search

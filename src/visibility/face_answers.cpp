@@ -10,40 +10,43 @@
 namespace facemap {
 namespace {
 
-// What a face may cost before it stays undecided. A step is a face of a patch; a box that a ray passes takes about a
-// twentieth of one.
-constexpr std::size_t kMostPieces = 128;
-constexpr std::size_t kMostSteps = 1 << 16;
-constexpr std::size_t kBoxesAStep = 20;
+constexpr std::size_t kStepsAPiece = 32;  // as long as a face has so many, it may be cut up further
+
+// A step is a face of a patch; these take about as long.
+constexpr std::size_t kBoxesAStep = 20, kFacesOnARayAStep = 4;
 
 }  // namespace
 
 FaceAnswers::FaceAnswers(const VisibleFaceSearch& search)
     : search_(search), patch_(search.faces_.scene, search.origin_, search.sides_, search.neighbours_) {}
 
-FaceAnswers::Answer FaceAnswers::decide(std::uint32_t id, std::vector<CoveredPiece>* pieces) {
+FaceAnswers::Answer FaceAnswers::decide(std::uint32_t id, std::size_t most_steps, std::vector<CoveredPiece>* pieces) {
   if (pieces != nullptr) pieces->clear();
   const SeenFace face(search_.faces_.scene, id, search_.sides_[id], search_.origin_);
-  boxes_ = 0;
+  ray_steps_ = 0;
+  patch_.allow(most_steps);
   const std::size_t first_step = patch_.steps();
   const FacePiece whole(face, search_.origin_);
   pieces_.assign(1, whole);
   for (std::size_t next = 0; next < pieces_.size(); ++next) {
     const FacePiece piece = pieces_[next];
     const Outcome outcome = ask(piece);
-    if (outcome == Outcome::Seen) return {FaceVisibility::Visible, HiddenReason::None, direction_};
+    if (outcome == Outcome::Seen) {
+      if (pieces != nullptr) pieces->clear();
+      return {FaceVisibility::Visible, HiddenReason::None, direction_};
+    }
     if (outcome == Outcome::Covered) {
       if (pieces != nullptr) {
         pieces->push_back({piece.scale(), piece.corners(), static_cast<FaceId>(cover_), direction_});
       }
       continue;
     }
-    const std::size_t before = pieces_.size();
-    if (before < kMostPieces && patch_.steps() - first_step + boxes_ / kBoxesAStep < kMostSteps)
-      piece.divide(cut_, whole, pieces_);
+    const std::size_t before = pieces_.size(), steps = patch_.steps() - first_step + ray_steps_;
+    const bool has_steps = std::max(steps, before * kStepsAPiece) < most_steps;
+    if (has_steps) piece.divide(cut_, whole, pieces_);
     if (pieces_.size() == before) {
       if (pieces != nullptr) pieces->clear();
-      return {};
+      return {FaceVisibility::Undecided, HiddenReason::None, Vector(0), !has_steps};
     }
   }
   return {FaceVisibility::Hidden, HiddenReason::Covered};
@@ -76,7 +79,8 @@ FaceAnswers::Outcome FaceAnswers::ask(const FacePiece& piece) {
 FaceId FaceAnswers::nearest(const SeenFace& face) {
   const MapFaces& faces = search_.faces_;
   const Tracked t = ray_parameter({search_.origin_, direction_, face.triangle(), face.side});
-  boxes_ += search_.tree_.find(direction_, t.value + t.error, found_);
+  const std::size_t boxes = search_.tree_.find(direction_, t.value + t.error, found_);
+  ray_steps_ += boxes / kBoxesAStep + found_.size() / kFacesOnARayAStep;
   NearestHit best(faces.scene, search_.origin_, direction_, nullptr);
   before_.clear();
   for (const std::uint32_t id : found_) {

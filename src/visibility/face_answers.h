@@ -21,11 +21,13 @@ class FaceAnswers {
     FaceVisibility visibility = FaceVisibility::Undecided;
     HiddenReason reason = HiddenReason::None;
     Vector witness{0};
+    bool ran_out = false;  ///< more steps may decide it
   };
 
   /// The face is not seen edge-on. Looks for a direction that sees a piece of it, and for faces that cover it; cuts
-  /// pieces up that have neither. `pieces`, if not null, becomes those that are covered.
-  Answer decide(std::uint32_t face, std::vector<CoveredPiece>* pieces = nullptr);
+  /// pieces up that have neither, until that has taken so many steps of about 0.1 microseconds. `pieces`, if not null,
+  /// becomes those that are covered.
+  Answer decide(std::uint32_t face, std::size_t most_steps, std::vector<CoveredPiece>* pieces = nullptr);
 
  private:
   enum class Outcome { Seen, Covered, Open };
@@ -35,8 +37,8 @@ class FaceAnswers {
 
   const VisibleFaceSearch& search_;
   CoveringPatch patch_;
-  std::size_t boxes_ = 0;  // that rays to the face have looked at
-  Vector direction_{0};    // of the latest piece asked
+  std::size_t ray_steps_ = 0;  // of the latest face
+  Vector direction_{0};        // of the latest piece asked
   std::uint32_t cover_ = 0;
   FacePiece::Cut cut_;  // where what might have covered it ends
   std::vector<FacePiece> pieces_;

@@ -6,13 +6,21 @@
 #include "map/face_planes.h"
 #include "math/exact_sign.h"
 #include "visibility/face_answers.h"
-#include "visibility/told_progress.h"
 
 namespace facemap {
 namespace {
 
 constexpr std::size_t kFewestSides = 4096;  // a task
-constexpr std::size_t kFacesATask = 1024;
+constexpr std::size_t kFacesATask = 512;
+
+// Faces may take so many steps together, about, and each at least and at most so many. Those that need more than their
+// share have a second one, of fewer together.
+constexpr std::size_t kStepsTogether = std::size_t{1} << 27, kMoreStepsTogether = 1 << 22;
+constexpr std::size_t kFewestSteps = 1 << 12, kMostSteps = 1 << 20;
+
+std::size_t share_of(std::size_t steps, std::size_t faces) {
+  return std::clamp(steps / std::max<std::size_t>(faces, 1), kFewestSteps, kMostSteps);
+}
 
 std::vector<std::int8_t> sides_of(const Scene& scene, const Vector& origin, const Executor& executor) {
   std::vector<std::int8_t> sides(scene.face_count(), 0);
@@ -41,34 +49,49 @@ VisibleFaceSearch::VisibleFaceSearch(const MapFaces& faces, const Vector& origin
       neighbours_(find_face_neighbours(faces.solid())),
       tree_(faces.scene, not_edge_on(faces.all(), sides_), origin, executor) {}
 
+// Decides faces, each in at most so many steps, and leaves of them those that need more.
+void VisibleFaceSearch::decide(std::vector<std::uint32_t>& open, std::size_t steps, std::size_t faces_a_task,
+                               const Executor& executor, ToldProgress& told, VisibleFaces& answers) const {
+  std::vector<std::unique_ptr<FaceAnswers>> workers(static_cast<std::size_t>(executor.threads()));
+  std::vector<std::uint8_t> ran_out(open.size());
+  executor.for_each((open.size() + faces_a_task - 1) / faces_a_task, [&](std::size_t task, int worker) {
+    std::unique_ptr<FaceAnswers>& own = workers[static_cast<std::size_t>(worker)];
+    if (own == nullptr) own = std::make_unique<FaceAnswers>(*this);
+    const std::size_t first = task * faces_a_task, last = std::min(first + faces_a_task, open.size());
+    for (std::size_t i = first; i < last; ++i) {
+      const FaceAnswers::Answer answer = own->decide(open[i], steps);
+      answers.faces[open[i]] = answer.visibility;
+      answers.witnesses[open[i]] = answer.witness;
+      answers.reasons[open[i]] = answer.reason;
+      ran_out[i] = answer.ran_out;
+    }
+    told.add(static_cast<std::size_t>(std::count(ran_out.begin() + first, ran_out.begin() + last, 0)));
+  });
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    if (ran_out[i] != 0) open[left++] = open[i];
+  }
+  open.resize(left);
+}
+
 VisibleFaces VisibleFaceSearch::find(const Executor& executor, const Viewpoint::Progress& progress) const {
   const std::size_t count = sides_.size();
   VisibleFaces answers{std::vector<FaceVisibility>(count, FaceVisibility::Hidden),
                        std::vector<Vector>(count, Vector(0)), std::vector<HiddenReason>(count, HiddenReason::LeftOut)};
   for (const std::uint32_t face : faces_.all().kept_faces()) answers.reasons[face] = HiddenReason::EdgeOn;
-  const std::vector<std::uint32_t> order = tree_.in_order(count);
-  std::vector<std::unique_ptr<FaceAnswers>> workers(static_cast<std::size_t>(executor.threads()));
-  ToldProgress told(progress, order.size());
-  executor.for_each((order.size() + kFacesATask - 1) / kFacesATask, [&](std::size_t task, int worker) {
-    std::unique_ptr<FaceAnswers>& own = workers[static_cast<std::size_t>(worker)];
-    if (own == nullptr) own = std::make_unique<FaceAnswers>(*this);
-    const std::size_t first = task * kFacesATask, last = std::min(first + kFacesATask, order.size());
-    for (std::size_t i = first; i < last; ++i) {
-      const FaceAnswers::Answer answer = own->decide(order[i]);
-      answers.faces[order[i]] = answer.visibility;
-      answers.witnesses[order[i]] = answer.witness;
-      answers.reasons[order[i]] = answer.reason;
-    }
-    told.add(last - first);
-  });
+  std::vector<std::uint32_t> open = tree_.in_order(count);
+  ToldProgress told(progress, open.size());
+  const std::size_t share = share_of(kStepsTogether, open.size());
+  decide(open, share, kFacesATask, executor, told, answers);
+  const std::size_t larger = share_of(kMoreStepsTogether, open.size());
+  if (larger > share) decide(open, larger, 1, executor, told, answers);
+  told.add(open.size());
   return answers;
 }
 
 std::vector<CoveredPiece> VisibleFaceSearch::covered_pieces(std::uint32_t face) const {
   std::vector<CoveredPiece> pieces;
-  if (sides_[face] == 0) return pieces;
-  const FaceAnswers::Answer answer = FaceAnswers(*this).decide(face, &pieces);
-  if (answer.reason != HiddenReason::Covered) pieces.clear();
+  if (sides_[face] != 0) FaceAnswers(*this).decide(face, kMostSteps, &pieces);
   return pieces;
 }
 

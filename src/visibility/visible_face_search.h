@@ -11,6 +11,7 @@
 #include "parallel/executor.h"
 #include "scene/face_neighbours.h"
 #include "visibility/face_tree.h"
+#include "visibility/told_progress.h"
 
 namespace facemap {
 
@@ -22,13 +23,17 @@ class VisibleFaceSearch {
 
   VisibleFaces find(const Executor& executor, const Viewpoint::Progress& progress) const;
 
-  /// Pieces that make up `face`, each with what covers it; none unless the face is hidden for that reason.
+  /// Pieces that make up `face`, each with what covers it; none if that is not why it is hidden, or it is not known to
+  /// be.
   std::vector<CoveredPiece> covered_pieces(std::uint32_t face) const;
 
   std::size_t memory_bytes() const noexcept;
 
  private:
   friend class FaceAnswers;
+
+  void decide(std::vector<std::uint32_t>& open, std::size_t steps, std::size_t faces_a_task, const Executor& executor,
+              ToldProgress& told, VisibleFaces& answers) const;
 
   MapFaces faces_;
   Vector origin_;
