@@ -46,7 +46,7 @@ def make_lights(random, vertices, faces):
 
 
 def test_pixels_equal_brute_force(random):
-    queries = number_from_environment("FACEMAP_QUERIES", 15_000)
+    queries = number_from_environment("FACEMAP_QUERIES", 12_000)
     asked = hits = lit = dark = scenes = refused = 0
     while asked < queries:
         vertices, faces = make_scene(random)
