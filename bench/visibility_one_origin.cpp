@@ -34,10 +34,12 @@ struct Opponents {
 /// Both sides on the same points, from one origin.
 class Match {
  public:
-  Match(const Case& question, const Vector& origin, std::span<const Vector> points, int threads, int repeat)
+  Match(const Case& question, const Vector& origin, std::span<const Vector> points, std::span<const FaceId> faces,
+        int threads, int repeat)
       : scene_(question.scene),
         origin_(origin),
         points_(points),
+        faces_(faces),
         threads_(threads),
         repeat_(repeat),
         embree_(question.scene, threads, false),
@@ -52,6 +54,12 @@ class Match {
     embree_.build(best.beforehand.low_quality, best.beforehand.robust);
     print_row(
         "built beforehand", best.beforehand, [&] { kept.visible({points_}, ours_); },
+        [&] { trace(best.beforehand.occlusion); });
+    print_row(
+        "own faces given", best.beforehand,
+        [&] {
+          kept.visible({points_, faces_}, ours_);
+        },
         [&] { trace(best.beforehand.occlusion); });
     print_row(
         "with builds", best.with_build, [&] { Viewpoint(scene_, origin_, {threads_}).visible({points_}, ours_); },
@@ -122,6 +130,7 @@ class Match {
   const Scene& scene_;
   Vector origin_;
   std::span<const Vector> points_;
+  std::span<const FaceId> faces_;  // that the points lie on
   int threads_, repeat_;
   Embree embree_;
   std::vector<std::uint8_t> ours_, theirs_;
@@ -132,12 +141,13 @@ class Match {
 void measure_one_origin(const VisibilitySettings& settings) {
   for (const std::string& name : settings.scenes) {
     const Case question = make_case(name, Options());
-    const std::vector<Vector> points = surface_points(question.scene, settings.points, settings.seed);
+    std::vector<FaceId> faces;
+    const std::vector<Vector> points = surface_points(question.scene, settings.points, settings.seed, 0, &faces);
     std::printf("%s: %zu faces, %zu points\n", name.c_str(), question.scene.face_count(), points.size());
     for (const int threads : settings.threads) {
       for (const bool is_light : {true, false}) {
         const Vector& origin = is_light ? question.lights[0].position : question.view.position;
-        Match(question, origin, points, threads, settings.repeat).play(is_light ? "first light" : "camera");
+        Match(question, origin, points, faces, threads, settings.repeat).play(is_light ? "first light" : "camera");
       }
     }
   }

@@ -26,7 +26,8 @@ class Random {
 
 }  // namespace
 
-std::vector<Vector> surface_points(const Scene& scene, std::size_t count, std::uint64_t seed, double lift) {
+std::vector<Vector> surface_points(const Scene& scene, std::size_t count, std::uint64_t seed, double lift,
+                                   std::vector<FaceId>* faces) {
   const Mesh& mesh = scene.mesh();
   const auto corner = [&](std::size_t face, int k) { return DVector(mesh.vertex(face, k)); };
   const auto normal_of = [&](std::size_t face) {
@@ -45,6 +46,7 @@ std::vector<Vector> surface_points(const Scene& scene, std::size_t count, std::u
     DVector p = (1 - root) * corner(face, 0) + root * (1 - along) * corner(face, 1) + root * along * corner(face, 2);
     if (lift != 0) p += lift * glm::normalize(normal_of(face));
     point = Vector(p);
+    if (faces != nullptr) faces->push_back(static_cast<FaceId>(face));
   }
   return points;
 }

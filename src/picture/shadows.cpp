@@ -173,7 +173,8 @@ class LightPass {
     parts_.points.sort(list, projection.through(frame, slack), points_.faces.data(), scene_.face_count(), parts_.memory,
                        parts_.rest);
     if (parts_.points.count() > 0) {
-      parts_.faces.run({scene_, light_, frame, slack, skip_entries_, some_, points_.given, blocks_exactly_}, parts_.points, counters_);
+      parts_.faces.run({scene_, light_, frame, slack, skip_entries_, some_, points_.given, blocks_exactly_},
+                       parts_.points, counters_);
       clear_blocked_places();
     }
   }

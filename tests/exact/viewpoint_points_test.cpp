@@ -186,6 +186,30 @@ TEST(ViewpointPoints, BehindHolesEqualTheOracle) {
   EXPECT_EQ(Session(seed() + 1, true).ask_about(number_from_environment("FACEMAP_QUERIES", 40000)), 0u);
 }
 
+// A sheet of two faces that leaves everything behind it in the dark, and points there that one of them may not hide.
+TEST(ViewpointPoints, OwnFacesHideNothingHoweverFarBehind) {
+  Mesh mesh;
+  test_scenes::add_triangle(mesh, {-1, -1, 0}, {1, -1, 0}, {1, 1, 0});
+  test_scenes::add_triangle(mesh, {-1, -1, 0}, {1, 1, 0}, {-1, 1, 0});
+  const Scene scene(mesh);
+  const Vector origin(0.1f, 0.2f, 5);
+  Random random(seed());
+  std::vector<Vector> points;
+  std::vector<FaceId> faces;
+  for (std::size_t i = 0; i < kManyPoints; ++i) {
+    const Vector place(random.in_cube());
+    points.push_back({place.x, place.y, random.chance(0.5) ? place.z : 0.001f * place.z});
+    faces.push_back(random.between(-1, 1));
+  }
+  const oracle::Oracle oracle(scene.mesh());
+  const oracle::View truth = oracle.from(origin);
+  const Viewpoint viewpoint(scene, origin, {1});
+  const auto visible = ask(viewpoint, {points, faces}, Way::Warm);
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) wrong += visible[i] != truth.is_visible(points[i], faces[i], 0);
+  EXPECT_EQ(wrong, 0u);
+}
+
 // A scene and points that are too many for the referee: the ways have to agree with each other and with a PointLight.
 std::vector<Vector> points_about(const Scene& scene, std::size_t count, std::uint64_t seed) {
   Random random(seed);
