@@ -85,14 +85,19 @@ HWY_INLINE std::uint32_t sift_side(const Range* box, int axis, bool is_against, 
   const Range& along = box[axis];
   const auto z0 = is_against ? hn::Neg(along.upper) : along.lower;
   const auto z1 = is_against ? hn::Neg(along.lower) : along.upper;
-  const auto is_in_front = hn::Gt(z1, zero);
+  // What is on the side has |x| <= z somewhere, for each of the other axes.
+  const Range &across = box[(axis + 1) % 3], &down = box[(axis + 2) % 3];
+  const auto reach = hn::Mul(z1, hn::Set(d, kHubDepthFactor));
+  const auto is_in_front =
+      hn::And(hn::Gt(z1, zero), hn::And(hn::Le(hn::Max(across.lower, down.lower), reach),
+                                        hn::Ge(hn::Min(across.upper, down.upper), hn::Neg(reach))));
   if (hn::AllFalse(d, is_in_front)) return 0;
   const auto least = hn::Set(d, kLeastBoxDistance);
   const auto is_apart = hn::Gt(z0, least);
   const auto nearest = hn::IfThenElse(is_apart, hn::Div(one, hn::Max(z0, least)), hn::Inf(d));
   const auto farthest = hn::Div(one, hn::Max(z1, least));
-  const Range u = quotients(box[(axis + 1) % 3], nearest, farthest);
-  const Range v = quotients(box[(axis + 2) % 3], nearest, farthest);
+  const Range u = quotients(across, nearest, farthest);
+  const Range v = quotients(down, nearest, farthest);
   const auto is_on_side =
       hn::And(is_in_front, hn::And(hn::Le(hn::Max(u.lower, v.lower), hn::Add(one, hn::Set(d, kHubMargin))),
                                    hn::Ge(hn::Min(u.upper, v.upper), hn::Sub(hn::Neg(one), hn::Set(d, kHubMargin)))));

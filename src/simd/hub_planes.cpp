@@ -46,13 +46,18 @@ using Vector = Vector3<VF>;
 
 constexpr std::size_t kLanes = hn::MaxLanes(DF());
 constexpr std::size_t kFaces = FacePack::kFaces;
+constexpr std::size_t kParts = kFaces / kLanes;
 
 HWY_INLINE VF greatest_size(const Vector& a) { return hn::Max(hn::Max(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z)); }
 
 HWY_INLINE std::uint32_t bits_of(hn::Mask<DF> mask) {
+#if HWY_TARGET <= HWY_AVX3
+  return static_cast<std::uint32_t>(mask.raw);
+#else
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(DF(), mask, bytes);
   return static_cast<std::uint32_t>(bytes[0] | bytes[1] << 8);
+#endif
 }
 
 HWY_INLINE Vector corner(const FacePack& faces, std::size_t k, std::size_t i) {
@@ -98,9 +103,10 @@ HWY_INLINE std::uint32_t set_up_some(const FacePack& faces, const Vector& hub, s
   store(ab, factor, i, planes.ab);
   store(ca, factor, i, planes.ca);
   store(normal, factor, i, planes.normal);
-  // 0 if either bound is not for float32.
-  const auto is_usable = hn::Ne(factor, hn::Zero(d));
-  hn::Store(hn::IfThenElseZero(is_usable, hn::Mul(edge_bound, plane_factor)), d, planes.scale + i);
+  // 0 if either bound, or their quotient, is not for float32.
+  const auto scale = hn::Mul(edge_bound, plane_factor);
+  const auto is_usable = hn::And(hn::Ne(factor, hn::Zero(d)), hn::Le(scale, hn::Set(d, kGreatestHubBound)));
+  hn::Store(hn::IfThenElseZero(is_usable, scale), d, planes.scale + i);
   hn::Store(hn::IfThenElseZero(is_usable, hn::Mul(hn::Xor(determinant, turn), plane_factor)), d, planes.height + i);
   hn::Store(reach, d, planes.reach + i);
   return bits_of(hn::Not(is_sure)) & ((1u << kLanes) - 1);
@@ -124,23 +130,31 @@ struct Values {
   VF beyond, bound;
 };
 
-HWY_INLINE Values values_of(const Vector& ab, const Vector& ca, const Vector& normal, VF scale, VF height, VF reach,
-                            const Vector& D, VF w) {
+// Of a face a lane.
+struct LoadedPlanes {
+  Vector ab, ca, normal;
+  VF scale, height, reach;
+};
+
+HWY_INLINE LoadedPlanes loaded(const HubPlanes& planes, std::size_t i) {
   const DF d;
-  const auto n = dot(normal, D), first = dot(ab, D), second = dot(ca, D);
+  const auto vector = [&](const float(*from)[kFaces]) HWY_ATTR {
+    return Vector{hn::Load(d, from[0] + i), hn::Load(d, from[1] + i), hn::Load(d, from[2] + i)};
+  };
+  return {vector(planes.ab),
+          vector(planes.ca),
+          vector(planes.normal),
+          hn::Load(d, planes.scale + i),
+          hn::Load(d, planes.height + i),
+          hn::Load(d, planes.reach + i)};
+}
+
+HWY_INLINE Values values_of(const LoadedPlanes& face, const Vector& D, VF w) {
+  const DF d;
+  const auto n = dot(face.normal, D), first = dot(face.ab, D), second = dot(face.ca, D);
   const auto third = hn::Sub(hn::Sub(n, first), second);
-  return {hn::Min(first, hn::Min(second, third)), hn::Sub(hn::Mul(n, scale), hn::Mul(height, w)),
-          hn::Add(hn::Mul(reach, w), hn::Set(d, 1.0f))};
-}
-
-HWY_INLINE Vector load(const float (*from)[kFaces], std::size_t i) {
-  const DF d;
-  return {hn::Load(d, from[0] + i), hn::Load(d, from[1] + i), hn::Load(d, from[2] + i)};
-}
-
-HWY_INLINE Vector repeat(const float (*from)[kFaces], std::size_t i) {
-  const DF d;
-  return {hn::Set(d, from[0][i]), hn::Set(d, from[1][i]), hn::Set(d, from[2][i])};
+  return {hn::Min(first, hn::Min(second, third)), hn::Sub(hn::Mul(n, face.scale), hn::Mul(face.height, w)),
+          hn::Add(hn::Mul(face.reach, w), hn::Set(d, 1.0f))};
 }
 
 }  // namespace
@@ -164,39 +178,26 @@ std::size_t ask_pack(const HubPlanes& planes, std::uint32_t pack, const HubTarge
                      const std::uint32_t* own_places, const std::uint32_t* places, std::size_t count,
                      HubVerdict* verdicts) {
   const DF d;
+  const auto one = hn::Set(d, 1.0f), minus_one = hn::Set(d, -1.0f);
+  LoadedPlanes faces[kParts];
+  for (std::size_t p = 0; p < kParts; ++p) faces[p] = loaded(planes, p * kLanes);
   std::size_t found = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const std::uint32_t place = places[k];
     const Vector D{hn::Set(d, targets.x[place]), hn::Set(d, targets.y[place]), hn::Set(d, targets.z[place])};
     const auto w = hn::Set(d, targets.w[place]);
-    std::uint32_t yes = 0, no = 0;
-    for (std::size_t i = 0; i < kFaces; i += kLanes) {
-      const Values v =
-          values_of(load(planes.ab, i), load(planes.ca, i), load(planes.normal, i), hn::Load(d, planes.scale + i),
-                    hn::Load(d, planes.height + i), hn::Load(d, planes.reach + i), D, w);
-      yes |= bits_of(hn::And(hn::Gt(v.inside, hn::Set(d, 1.0f)), hn::Gt(v.beyond, v.bound))) << i;
-      no |= bits_of(hn::Or(hn::Lt(v.inside, hn::Set(d, -1.0f)), hn::Lt(v.beyond, hn::Neg(v.bound)))) << i;
+    std::uint32_t yes = 0, maybe = 0;
+    for (std::size_t p = 0; p < kParts; ++p) {
+      const auto [inside, beyond, bound] = values_of(faces[p], D, w);
+      maybe |= bits_of(hn::And(hn::Ge(inside, minus_one), hn::Ge(beyond, hn::Neg(bound)))) << (p * kLanes);
+      yes |= bits_of(hn::And(hn::Gt(inside, one), hn::Gt(beyond, bound))) << (p * kLanes);
     }
     const std::uint32_t own = own_places[place], asked = own >> 4 == pack ? ~(1u << (own & 15)) : ~0u;
-    verdicts[found] = {place, static_cast<std::uint16_t>(yes & asked), static_cast<std::uint16_t>(~no & ~yes & asked)};
-    found += ((verdicts[found].yes | verdicts[found].open) != 0);
+    verdicts[found] = {place, static_cast<std::uint16_t>(yes & asked),
+                       static_cast<std::uint16_t>(maybe & ~yes & asked)};
+    found += (maybe & asked) != 0;
   }
   return found;
-}
-
-std::uint32_t ask_sixteen(const HubPlanes& planes, std::size_t face, const HubTargets& targets, std::size_t first) {
-  const DF d;
-  const Vector ab = repeat(planes.ab, face), ca = repeat(planes.ca, face), normal = repeat(planes.normal, face);
-  const auto scale = hn::Set(d, planes.scale[face]), height = hn::Set(d, planes.height[face]),
-             reach = hn::Set(d, planes.reach[face]);
-  std::uint32_t yes = 0;
-  for (std::size_t i = 0; i < 16; i += kLanes) {
-    const Vector D{hn::LoadU(d, targets.x + first + i), hn::LoadU(d, targets.y + first + i),
-                   hn::LoadU(d, targets.z + first + i)};
-    const Values v = values_of(ab, ca, normal, scale, height, reach, D, hn::LoadU(d, targets.w + first + i));
-    yes |= bits_of(hn::And(hn::Gt(v.inside, hn::Set(d, 1.0f)), hn::Gt(v.beyond, v.bound))) << i;
-  }
-  return yes;
 }
 
 }  // namespace facemap::simd::HWY_NAMESPACE
@@ -233,10 +234,6 @@ std::size_t ask_pack(const HubPlanes& planes, std::uint32_t pack, const HubTarge
                      const std::uint32_t* own_places, const std::uint32_t* places, std::size_t count,
                      HubVerdict* verdicts) {
   return FACEMAP_DISPATCH(ask_pack)(planes, pack, targets, own_places, places, count, verdicts);
-}
-
-std::uint32_t ask_sixteen(const HubPlanes& planes, std::size_t face, const HubTargets& targets, std::size_t first) {
-  return FACEMAP_DISPATCH(ask_sixteen)(planes, face, targets, first);
 }
 
 }  // namespace facemap::simd

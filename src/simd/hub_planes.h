@@ -70,7 +70,4 @@ std::size_t ask_pack(const HubPlanes& planes, std::uint32_t pack, const HubTarge
                      const std::uint32_t* own_places, const std::uint32_t* places, std::size_t count,
                      HubVerdict* verdicts);
 
-/// Asks face `face` about sixteen segments from `first` on; one bit each that it surely blocks.
-std::uint32_t ask_sixteen(const HubPlanes& planes, std::size_t face, const HubTargets& targets, std::size_t first);
-
 }  // namespace facemap::simd

@@ -1,9 +1,13 @@
 #include "visibility/face_packs.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <limits>
+#include <iterator>
 #include <span>
+
+#include "map/face_planes.h"
+#include "math/exact_sign.h"
 
 namespace facemap {
 namespace {
@@ -14,6 +18,14 @@ constexpr std::size_t kBundleFaces = kPackFaces * kPacks;
 
 // What is far smaller than the whole may vanish in units of the packs: boxes are so much larger.
 constexpr float kUnderflow = 0x1p-100f;
+
+// Without a point, as places are that hold nothing.
+const simd::PackBoxes kNoBoxes = [] {
+  simd::PackBoxes boxes;
+  for (auto& lower : boxes.lower) std::fill(std::begin(lower), std::end(lower), HUGE_VALF);
+  for (auto& upper : boxes.upper) std::fill(std::begin(upper), std::end(upper), -HUGE_VALF);
+  return boxes;
+}();
 
 // Faces that one task divides.
 constexpr std::size_t kTaskFaces = 4096;
@@ -109,7 +121,7 @@ FacePacks::FacePacks(const Scene& scene, const Vector& lower, const Vector& uppe
 
   packs_.resize((kept.size() + kPackFaces - 1) / kPackFaces);
   boxes_.resize((packs_.size() + kPacks - 1) / kPacks);
-  bundles_.resize(boxes_.size());
+  bundles_.assign((boxes_.size() + kPacks - 1) / kPacks, kNoBoxes);
   last_count_ = kept.size() - (packs_.size() - 1) * kPackFaces;
   for_ranges(executor, boxes_.size(), kFewestPacks / kPacks, [&](std::size_t first, std::size_t last, int) {
     for (std::size_t p = first * kPacks; p < std::min(last * kPacks, packs_.size()); ++p) {
@@ -118,11 +130,7 @@ FacePacks::FacePacks(const Scene& scene, const Vector& lower, const Vector& uppe
       for (std::size_t i = 0; i < count(p); ++i) places_[faces[i]] = static_cast<std::uint32_t>(p * kPackFaces + i);
       fill_pack(scene, faces, p);
     }
-    for (std::size_t b = first; b < last; ++b) {
-      Box& bundle = bundles_[b];
-      bundle = {Vector(std::numeric_limits<float>::infinity()), Vector(-std::numeric_limits<float>::infinity())};
-      for (std::size_t i = 0; i < kPacks; ++i) set_box(b * kPacks + i);
-    }
+    for (std::size_t b = first; b < last; ++b) set_boxes(b);
   });
 }
 
@@ -137,31 +145,46 @@ void FacePacks::fill_pack(const Scene& scene, const std::uint32_t* faces, std::s
   }
 }
 
-// Of a pack in its bundle's boxes, and adds it to the bundle's own. A place without a pack has a box without a point.
-void FacePacks::set_box(std::size_t pack) {
-  simd::PackBoxes& boxes = boxes_[pack / kPacks];
-  Box& bundle = bundles_[pack / kPacks];
+// Of a bundle and of its packs.
+void FacePacks::set_boxes(std::size_t bundle) {
+  simd::PackBoxes& boxes = boxes_[bundle];
+  boxes = kNoBoxes;
   for (int j = 0; j < 3; ++j) {
-    float lower = std::numeric_limits<float>::infinity(), upper = -lower;
-    if (pack < packs_.size()) {
-      for (const auto& corner : packs_[pack].corners) {
+    float& bundle_lower = bundles_[bundle / kPacks].lower[j][bundle % kPacks];
+    float& bundle_upper = bundles_[bundle / kPacks].upper[j][bundle % kPacks];
+    for (std::size_t i = 0; i < kPacks && bundle * kPacks + i < packs_.size(); ++i) {
+      float &lower = boxes.lower[j][i], &upper = boxes.upper[j][i];
+      for (const auto& corner : packs_[bundle * kPacks + i].corners) {
         for (const float x : corner[j]) {
           lower = std::min(lower, x - kUnderflow);
           upper = std::max(upper, x + kUnderflow);
         }
       }
-      bundle.lower[j] = std::min(bundle.lower[j], lower);
-      bundle.upper[j] = std::max(bundle.upper[j], upper);
+      bundle_lower = std::min(bundle_lower, lower);
+      bundle_upper = std::max(bundle_upper, upper);
     }
-    boxes.lower[j][pack % kPacks] = lower;
-    boxes.upper[j][pack % kPacks] = upper;
   }
 }
 
 std::size_t FacePacks::bytes_for(const Scene& scene) {
   const std::size_t faces = scene.kept_faces().size();
   return scene.face_count() * sizeof(std::uint32_t) + (faces / kPackFaces + 1) * sizeof(simd::FacePack) +
-         (faces / kBundleFaces + 1) * (sizeof(simd::PackBoxes) + sizeof(Box)) + faces * sizeof(Centre);
+         (faces / kBundleFaces + 1) * (sizeof(simd::PackBoxes) + sizeof(simd::PackBoxes) / kPacks + 1) +
+         faces * sizeof(Centre);
+}
+
+void set_up_planes(const Scene& scene, const FacePacks& packs, std::size_t pack, const float* hub, const Vector& at,
+                   simd::HubPlanes& planes) {
+  const simd::FacePack& faces = packs.pack(pack);
+  const std::size_t count = packs.count(pack);
+  std::uint32_t open = simd::set_up_hub_planes(faces, hub, planes);
+  for (std::size_t i = count; i < kPackFaces; ++i) simd::remove_plane(planes, i);
+  for (open &= (1u << count) - 1; open != 0; open &= open - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(open));
+    const int s = side(triangle_of(scene, faces.ids[i]), at);
+    if (s < 0) simd::turn_plane(planes, i);
+    if (s == 0) simd::remove_plane(planes, i);
+  }
 }
 
 }  // namespace facemap

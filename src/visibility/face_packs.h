@@ -26,15 +26,20 @@ class FacePacks {
 
   std::size_t size() const noexcept { return packs_.size(); }
   const simd::FacePack& pack(std::size_t i) const { return packs_[i]; }
+  /// Has it fetched before it is needed.
+  void prefetch(std::size_t i) const {
+    const char* const at = reinterpret_cast<const char*>(&packs_[i]);
+    for (std::size_t line = 0; line < sizeof(simd::FacePack); line += 64) __builtin_prefetch(at + line);
+  }
   /// How many of its places hold faces.
   std::size_t count(std::size_t i) const { return i + 1 < packs_.size() ? kFaces : last_count_; }
 
-  struct Box {
-    Vector lower, upper;
-  };
-  std::size_t bundles() const noexcept { return bundles_.size(); }
-  const Box& bundle(std::size_t i) const { return bundles_[i]; }
+  std::size_t bundles() const noexcept { return boxes_.size(); }
   const simd::PackBoxes& boxes(std::size_t bundle) const { return boxes_[bundle]; }
+
+  /// The boxes of bundles 16 i and on.
+  std::size_t bundle_groups() const noexcept { return bundles_.size(); }
+  const simd::PackBoxes& bundle_boxes(std::size_t i) const { return bundles_[i]; }
 
   /// Where a face stands: pack * 16 + place; kNoPlace if it is not kept.
   std::uint32_t place_of(std::size_t face) const { return places_[face]; }
@@ -47,14 +52,19 @@ class FacePacks {
   static constexpr std::size_t kFaces = simd::FacePack::kFaces;
 
   void fill_pack(const Scene& scene, const std::uint32_t* faces, std::size_t pack);
-  void set_box(std::size_t pack);
+  void set_boxes(std::size_t bundle);
 
   double scale_ = 1;
   std::size_t last_count_ = kFaces;
   std::vector<simd::FacePack> packs_;
   std::vector<simd::PackBoxes> boxes_;
-  std::vector<Box> bundles_;
+  std::vector<simd::PackBoxes> bundles_;
   std::vector<std::uint32_t> places_;
 };
+
+/// Sets up the planes of a pack about a hub, `hub` in the packs' units and `at` in the world's. Sides that float32
+/// leaves open are asked exactly; faces that are seen edge-on block nothing.
+void set_up_planes(const Scene& scene, const FacePacks& packs, std::size_t pack, const float* hub, const Vector& at,
+                   simd::HubPlanes& planes);
 
 }  // namespace facemap
