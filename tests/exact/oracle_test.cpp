@@ -5,12 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <vector>
 
 #include "support/queries.h"
 #include "support/scenes.h"
 
 namespace {
 
+using facemap::FaceId;
 using facemap::kNoFace;
 using facemap::Mesh;
 using facemap::PointLight;
@@ -132,6 +134,35 @@ TEST(Oracle, ASeenPointIsLitOnTheSideThatTheCameraSees) {
   EXPECT_TRUE(oracle.from({-1.3749999f, -1.1875f, 2}).is_lit(on_floor));
 }
 
+TEST(Oracle, AllHitsComeInOrderAndTheFirstBlockerIsTheFirstBeforeThePoint) {
+  const Mesh mesh = joined(floor_at(0, 1), floor_at(1, 0.25f));
+  const Oracle oracle(mesh);
+  const View view = oracle.from({0, 0, 4});
+  const Vector down{0.01f, -0.02f, -1};
+  const std::vector<FaceId> hits = view.all_hits(down);
+  ASSERT_EQ(hits.size(), 2u);
+  EXPECT_GE(hits[0], 2);
+  EXPECT_LT(hits[1], 2);
+  EXPECT_TRUE(view.meets(hits[0], down) && view.meets(hits[1], down));
+  const auto at = [&](float t) { return Vector(0, 0, 4) + t * down; };
+  EXPECT_EQ(view.first_blocker(at(5), kNoFace), hits[0]);
+  EXPECT_EQ(view.first_blocker(at(5), hits[0]), hits[1]);
+  EXPECT_EQ(view.first_blocker(at(3.5f), kNoFace), hits[0]);
+  EXPECT_EQ(view.first_blocker(at(3.5f), hits[0]), kNoFace);
+  EXPECT_EQ(view.first_blocker(at(3), kNoFace), kNoFace);  // on the plane
+  EXPECT_EQ(view.first_blocker({0, 0, 4}, kNoFace), kNoFace);
+
+  Mesh folded;
+  add_triangle(folded, {0, 0, 0}, {0, 4, 0}, {4, 0, 0});  // turned to -z
+  add_triangle(folded, {0, 0, 0}, {4, 0, 0}, {0, 3, 0});  // turned to +z
+  add_triangle(folded, {0, 0, 0}, {3, 0, 0}, {0, 3, 0});
+  const Oracle ties(folded);
+  const View above = ties.from({1, 1, 2});
+  EXPECT_EQ(above.all_hits({0, 0, -1}), (std::vector<FaceId>{1, 2, 0}));
+  EXPECT_EQ(above.first_blocker({1, 1, -1}, kNoFace), 1);
+  EXPECT_EQ(above.first_blocker({1, 1, -1}, 1), 2);
+}
+
 TEST(Oracle, DoublesSayWhatIntegersSay) {
   constexpr std::uint64_t kSeed = 0x5eed0001;
   Random random(kSeed);
@@ -146,10 +177,15 @@ TEST(Oracle, DoublesSayWhatIntegersSay) {
       const Vector d = test_queries::make_camera_query(scene, camera, random).direction;
       ASSERT_EQ(view.nearest(d), exact_view.nearest(d)) << scene.name << test_queries::text(d);
       ASSERT_EQ(view.count_hits(d), exact_view.count_hits(d)) << scene.name << test_queries::text(d);
+      ASSERT_EQ(view.all_hits(d), exact_view.all_hits(d)) << scene.name << test_queries::text(d);
       const test_queries::LightQuery q = test_queries::make_light_query(scene, oracle, view, light, random);
       ASSERT_EQ(q.is_seen ? lit.is_lit(q.seen) : lit.is_lit(q.given, q.on),
                 q.is_seen ? exactly_lit.is_lit(q.seen) : exactly_lit.is_lit(q.given, q.on))
           << scene.name << test_queries::text(q);
+      if (q.is_seen) continue;
+      const FaceId first = lit.first_blocker(q.given, kNoFace);
+      ASSERT_EQ(first, exactly_lit.first_blocker(q.given, kNoFace)) << scene.name << test_queries::text(q);
+      ASSERT_EQ(first == kNoFace, lit.is_lit(q.given, {})) << scene.name << test_queries::text(q);
     }
     signs_left_over += view.exact_signs() + lit.exact_signs();
   }
