@@ -212,7 +212,7 @@ Coverage cover_faces(const Scene& scene, const SpaceVector& frame, const Project
     return coverage;
   }
   PlaneCover plane(scene, frame, projection, planes, coverage);
-  coverage.entries.reserve(kEntriesExpected * scene.kept_faces().size());
+  coverage.entries.reserve(kEntriesExpected * plane.count_faces());
   for (const Pass pass : {Pass::Cuts, Pass::Entries}) {
     if (pass == Pass::Cuts && keep_all) continue;
     for (const std::uint32_t id : scene.kept_faces()) {

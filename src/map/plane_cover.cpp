@@ -65,9 +65,19 @@ void PlaneCover::project_vertices() {
   }
 }
 
+bool PlaneCover::is_outside(std::uint32_t id) const {
+  const auto& corner = scene_.mesh().triangles[id];
+  return (outside_[corner[0]] & outside_[corner[1]] & outside_[corner[2]]) != 0;
+}
+
+std::size_t PlaneCover::count_faces() const {
+  const std::vector<std::uint32_t>& ids = scene_.kept_faces();
+  return static_cast<std::size_t>(std::count_if(ids.begin(), ids.end(), [this](auto id) { return !is_outside(id); }));
+}
+
 bool PlaneCover::add(std::uint32_t id, Pass pass) {
   const auto& corner = scene_.mesh().triangles[id];
-  if ((outside_[corner[0]] & outside_[corner[1]] & outside_[corner[2]]) != 0) return true;
+  if (is_outside(id)) return true;
   const MapPoint corners[] = {points_[corner[0]], points_[corner[1]], points_[corner[2]]};
   if (!(corners[0].x + corners[1].x + corners[2].x < HUGE_VAL)) return false;
   const TexelBox whole = box_around(corners, margin_);

@@ -19,6 +19,9 @@ class PlaneCover {
   PlaneCover(const Scene& scene, const SpaceVector& frame, const Projection& projection, const FacePlanesTable& planes,
              Coverage& out);
 
+  /// How many faces are not surely outside of the raster.
+  std::size_t count_faces() const;
+
   /// Adds to the cuts or to the entries what face `id`, which has a side, gives to them. False if it is neither well
   /// in front of the map nor surely outside of it.
   bool add(std::uint32_t id, Pass pass);
@@ -26,6 +29,7 @@ class PlaneCover {
  private:
   struct Image;
 
+  bool is_outside(std::uint32_t id) const;
   void project_vertices();
   std::uint8_t sides_outside(const DVector& local) const;
   void cut(std::uint32_t id, const Image& image);
