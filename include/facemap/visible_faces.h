@@ -30,7 +30,7 @@ struct VisibleFaces {
 
 /// A piece of a hidden face, and what hides it. Take the face `cover` and all faces that are reached from it across
 /// edges that the piece meets. Each such edge belongs to two faces, which have it in opposite directions, and each face
-/// stands before the hidden one wherever both are seen in the piece. Then the faces that are seen along a direction,
+/// stands before the hidden one wherever both are seen in the piece. Then the faces that are met along a direction,
 /// those turned towards the origin less those turned away, are as many in all of the piece; along `direction` they are
 /// not 0. So one of the faces is seen in every direction of the piece (docs/algorithm.md).
 struct CoveredPiece {

@@ -65,9 +65,10 @@ class CoveredPiece(NamedTuple):
     """A piece of a hidden face, and what hides it.
 
     Take the face `cover` and all faces that are reached from it across edges that the piece meets. Each such edge
-    belongs to two of them, turned the same way; each of them stands before the piece's face wherever it is seen in the
-    piece, so none of their outlines passes through; and `cover` is seen there along `direction`. So one of them is seen
-    in every direction of the piece.
+    belongs to two faces, which have it in opposite directions, and each face stands before the hidden one wherever both
+    are seen in the piece. Then the faces that are met along a direction, those turned towards the origin less those
+    turned away, are as many in all of the piece; along `direction` they are not 0. So one of the faces is seen in every
+    direction of the piece.
     """
 
     scale: int
@@ -77,7 +78,7 @@ class CoveredPiece(NamedTuple):
     cover: int
     """A face."""
     direction: np.ndarray
-    """(3,) float32: from the origin, strictly inside the piece."""
+    """(3,) float32: from the origin, strictly inside the piece; it meets `cover`."""
 
 
 class View:
@@ -313,7 +314,8 @@ class View:
 
     def covered_pieces(self, face: int) -> List[CoveredPiece]:
         """Why ``visible_faces`` calls a face hidden because it is covered: pieces that make up the face, each with what
-        covers it. None for other faces.
+        covers it. None for faces that are visible, left out or seen edge-on; for one that was left undecided it takes
+        more time than ``visible_faces`` does.
 
         Parameters
         ----------
