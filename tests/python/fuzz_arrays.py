@@ -55,8 +55,8 @@ def render(scene: facemap.Scene, camera: Dict[str, Any], light: Dict[str, Any], 
 RENDER = {"width": 6, "height": 4, "samples": 1, "planes": ["face_id"], "up": (0, 1, 0), "progress": None,
           "crop": (0, 0, 2, 2), "filter": "box", "filter_width": 2.0, "normals": "flat", "terminator_fix": True,
           "falloff": "constant", "background": (0, 0, 0), "ambient": (0, 0, 0), "sky_up": (0, 0, 0),
-          "sky_down": "#ffffff", "materials": True, "max_texture_pixels": 9, "builder": "cover", "strategy": "auto", "light_maps": "auto",
-          "map_memory": 0, "threads": 1}
+          "sky_down": "#ffffff", "materials": True, "max_texture_pixels": 9, "builder": "cover",
+          "strategy": "auto", "light_maps": "auto", "map_memory": 0, "threads": 1}
 CAMERA = {"position": (3, 2, 5), "look_at": (0, 0, 0), "up": (0, 1, 0), "field_angle": 50.0, "lens": "plane",
           "height": None, "matrix": None, "distortion": (), "pose": None, "layout": "3x2", "name": ""}
 OPENCV = {"matrix": np.array([[5, 0, 3], [0, 5, 2], [0, 0, 1.0]]), "distortion": [0.1, 0, 0, 0],

@@ -9,11 +9,17 @@ from brute_force import View as Referee
 from brute_force_lights import Seen, Sun, lit_by_point
 from hard_scenes import as_float32, make_origin, make_scene, number_from_environment, some_on_faces
 
-WIDTH, HEIGHT = 12, 12
+WIDTH, HEIGHT = 13, 13  # odd: some rays go straight ahead, or along a plane of two axes
 
 
 def make_camera(random, vertices, faces, position):
-    """Of a lens at random; looks at some face."""
+    """Of a lens at random; looks at some face, or along an axis."""
+    if random.random() < 0.4:
+        axes = random.permutation(np.eye(3)) * random.choice([-1, 1])
+        away = 0.5 * max(1, np.abs(position).max())
+        ahead = np.where(np.abs(position + axes[0] * away) > 3e38, -axes[0], axes[0])  # within float32
+        target = as_float32(position + ahead * away)
+        return facemap.Camera(position.tolist(), target.tolist(), axes[1], random.uniform(30, 120), "plane")
     target = position
     while np.array_equal(target, position):
         target = as_float32(some_on_faces(random, vertices, faces, 1)[0][0] + random.normal(size=3) * 1e-3)
@@ -26,6 +32,10 @@ def make_camera(random, vertices, faces, position):
     return facemap.Camera(position.tolist(), target.tolist(), up, angle, lens, layout="3x2")
 
 
+def size_of(camera):
+    return (12, 8) if camera.lens == "cube" else (WIDTH, HEIGHT)
+
+
 def some_pose(random, position):
     """R|t of a camera that is turned somehow."""
     rotation = np.linalg.qr(random.normal(size=(3, 3)))[0]
@@ -33,9 +43,10 @@ def some_pose(random, position):
     return np.concatenate([rotation, -(rotation @ position.astype(np.float64))[:, np.newaxis]], axis=1)
 
 
-def make_lights(random, vertices, faces):
-    """Point lights, then suns, as a light mask has them; some along edges and planes."""
+def make_lights(random, vertices, faces, position):
+    """Point lights, then suns, as a light mask has them; some in a plane or line with the camera, edges and faces."""
     lamps = [make_origin(random, vertices, faces) for _ in range(random.integers(1, 4))]
+    lamps = [np.where(random.random(3) < random.choice([0, 0.5, 0.8]), position, lamp) for lamp in lamps]
     suns = []
     while len(suns) < 2:
         aim = np.diff(some_on_faces(random, vertices, faces, 2)[0], axis=0)[0]
@@ -45,52 +56,69 @@ def make_lights(random, vertices, faces):
     return lamps, suns[:random.integers(0, 3)]
 
 
+def compare(random, vertices, faces, camera, lamps, suns):
+    """A picture and brute force; how many pixels have a face, and how many times they are lit and dark."""
+    scene, mesh = facemap.Scene(vertices, faces), Mesh(vertices, faces)
+    lights = [facemap.Light(lamp.tolist()) for lamp in lamps] + [facemap.Light.sun(sun.tolist()) for sun in suns]
+    width, height = size_of(camera)
+    origin, directions = camera.rays(scene, width, height)
+    directions = directions.reshape(-1, 3)
+    frame = scene.render(camera, lights, width, height, planes=["face_id", "light_mask"], terminator_fix=False,
+                         strategy=str(random.choice(["auto", "lists", "transposed"])),
+                         light_maps=str(random.choice(["auto", "keep", "none"])), threads=int(random.integers(1, 4)))
+    case = (f"vertices = {vertices.tolist()}\nfaces = {faces.tolist()}\n{camera}\nlamps = {lamps}\nsuns = {suns}\n"
+            f"{frame.statistics}")
+
+    referee = Referee(mesh, origin)
+    truth = np.array([met[0][0] if met else -1 for met in referee.all_hits(directions)])
+    answers = frame.face_id.reshape(-1)
+    wrong = np.nonzero(answers != truth)[0]
+    assert not len(wrong), f"{answers[wrong]} not {truth[wrong]} along {directions[wrong].tolist()}\n{case}"
+
+    pixels = np.nonzero(truth >= 0)[0]
+    seen = Seen(origin, directions[pixels], truth[pixels], referee.sides[truth[pixels]])
+    reaches = [lit_by_point(Referee(mesh, lamp), seen) for lamp in lamps] + [Sun(mesh, sun).lit(seen) for sun in suns]
+    mask = frame.light_mask.reshape(len(truth), len(lights))
+    assert not mask[truth < 0].any(), case
+    for k, by_light in enumerate(reaches):
+        wrong = np.nonzero(mask[pixels, k] != by_light)[0]
+        assert not len(wrong), (f"light {k}: {mask[pixels[wrong], k]} on faces {truth[pixels[wrong]]} along "
+                                f"{directions[pixels[wrong]].tolist()}\n{case}")
+    return np.array([len(truth), len(pixels), np.sum(reaches), len(pixels) * len(lights) - np.sum(reaches)], int)
+
+
 def test_pixels_equal_brute_force(random):
     queries = number_from_environment("FACEMAP_QUERIES", 12_000)
-    asked = hits = lit = dark = scenes = refused = 0
-    while asked < queries:
+    counts, scenes, refused = np.zeros(4, int), 0, 0
+    while counts[0] < queries:
         vertices, faces = make_scene(random)
-        scene, mesh = facemap.Scene(vertices, faces), Mesh(vertices, faces)
-        camera = make_camera(random, vertices, faces, make_origin(random, vertices, faces))
-        lamps, suns = make_lights(random, vertices, faces)
-        lights = [facemap.Light(lamp.tolist()) for lamp in lamps] + [facemap.Light.sun(sun.tolist()) for sun in suns]
-        height = WIDTH * 2 // 3 if camera.lens == "cube" else HEIGHT
+        position = make_origin(random, vertices, faces)
+        camera = make_camera(random, vertices, faces, position)
+        lamps, suns = make_lights(random, vertices, faces, position)
         scenes += 1
         try:
-            origin, directions = camera.rays(scene, WIDTH, height)
+            camera.rays(facemap.Scene(vertices, faces), *size_of(camera))
         except facemap.Error:  # a pose with what float32 does not hold
             refused += 1
             continue
-        directions = directions.reshape(-1, 3)
-        frame = scene.render(camera, lights, WIDTH, height, planes=["face_id", "light_mask"], terminator_fix=False,
-                             strategy=str(random.choice(["auto", "lists", "transposed"])),
-                             light_maps=str(random.choice(["auto", "keep", "none"])),
-                             threads=int(random.integers(1, 4)))
-        case = (f"vertices = {vertices.tolist()}\nfaces = {faces.tolist()}\n{camera}\nlamps = {lamps}\nsuns = {suns}\n"
-                f"{frame.statistics}")
+        counts += compare(random, vertices, faces, camera, lamps, suns)
+    print("{} pixels, {} with a face, {} times lit, {} times dark, 0 differences".format(*counts))
+    assert refused < scenes // 10 + 2 and counts[1] > queries // 10 and min(counts[2:]) > queries // 50
 
-        referee = Referee(mesh, origin)
-        truth = np.array([met[0][0] if met else -1 for met in referee.all_hits(directions)])
-        answers = frame.face_id.reshape(-1)
-        wrong = np.nonzero(answers != truth)[0]
-        assert not len(wrong), f"{answers[wrong]} not {truth[wrong]} along {directions[wrong].tolist()}\n{case}"
 
-        pixels = np.nonzero(truth >= 0)[0]
-        seen = Seen(origin, directions[pixels], truth[pixels], referee.sides[truth[pixels]])
-        reaches = [lit_by_point(Referee(mesh, lamp), seen) for lamp in lamps]
-        reaches += [Sun(mesh, sun).lit(seen) for sun in suns]
-        mask = frame.light_mask.reshape(len(truth), len(lights))
-        assert not mask[truth < 0].any(), case
-        for k, by_light in enumerate(reaches):
-            wrong = np.nonzero(mask[pixels, k] != by_light)[0]
-            assert not len(wrong), (f"light {k}: {mask[pixels[wrong], k]} on faces {truth[pixels[wrong]]} along "
-                                    f"{directions[pixels[wrong]].tolist()}\n{case}")
-            lit += int(by_light.sum())
-            dark += int((~by_light).sum())
-        asked += len(truth)
-        hits += len(pixels)
-    print(f"{asked} pixels, {hits} with a face, {lit} times lit, {dark} times dark, 0 differences")
-    assert refused < scenes // 10 + 2 and hits > queries // 10 and min(lit, dark) > queries // 50
+def test_corners_between_light_and_pixel(random):
+    """From the world's origin a ray's numbers can be doubled: light, corner and what is seen lie exactly on a line."""
+    counts = np.zeros(4, int)
+    for _ in range(20):
+        camera = facemap.Camera((0, 0, 0), random.normal(size=3), random.normal(size=3), 60, "plane")
+        wall = as_float32(camera.look_at + 3 * random.normal(size=(3, 3)))
+        directions = camera.rays(facemap.Scene(wall, [[0, 1, 2]]), WIDTH, HEIGHT).directions.reshape(-1, 3)
+        rays = directions[random.integers(len(directions), size=8)]
+        corners = np.stack([-2 * rays, *as_float32(random.normal(size=(2, 8, 3)) - 2 * rays)], axis=1).reshape(-1, 3)
+        vertices = np.concatenate([wall * np.float32(9), corners])
+        counts += compare(random, vertices, np.arange(27).reshape(-1, 3), camera, list(-4 * rays[:6]), [])
+    print("{} pixels, {} with a face, {} times lit, {} times dark, 0 differences".format(*counts))
+    assert min(counts[2:]) > 100
 
 
 def test_a_view_and_a_picture_agree():
