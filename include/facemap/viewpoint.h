@@ -23,7 +23,7 @@ struct AllHits {
 };
 
 /// What is visible from a fixed point: a FaceMap that is asked about many points and directions at once. All answers
-/// are exact for the float32 numbers given, on every machine, whatever the number of threads; docs/visibility.md.
+/// are exact for the float32 numbers given, on every machine, whatever the number of threads; docs/algorithm.md, 3.
 /// The scene must outlive it. Const members may be called by several threads together.
 class Viewpoint {
  public:

@@ -86,8 +86,7 @@ ParallelFaces::Asked ParallelFaces::asked(const ParallelFrame::Place& place) con
   return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(z)};
 }
 
-ParallelFaces::Sides ParallelFaces::sides(std::uint32_t id, const Asked& asked) const {
-  const Face& face = faces_[id];
+ParallelFaces::Sides ParallelFaces::sides(const Face& face, const Asked& asked) {
   float value[4];
   for (int k = 0; k < 4; ++k) value[k] = face.x[k] * asked.x + face.y[k] * asked.y;
   for (int k = 0; k < 4; ++k) value[k] += face.c[k];

@@ -15,6 +15,9 @@ class ParallelFaces {
  public:
   ParallelFaces(const Scene& scene, const Vector& direction, const ParallelFrame& frame);
 
+  /// Of no face yet: for those who ask face_of().
+  explicit ParallelFaces(const ParallelFrame& frame) : frame_(frame) {}
+
   int side(std::uint32_t face) const { return sides_[face]; }
 
   /// Lower bound of the face's depth (ParallelFrame::depth), rounded down.
@@ -32,20 +35,21 @@ class ParallelFaces {
     bool surely_outside, surely_inside;  ///< of the three edges
     int beyond;
   };
-  Sides sides(std::uint32_t face, const Asked& asked) const;
+  Sides sides(std::uint32_t face, const Asked& asked) const { return sides(faces_[face], asked); }
 
-  std::size_t memory_bytes() const noexcept { return sides_.size() + faces_.size() * sizeof(Face); }
-
- private:
-  // x p.x + y p.y + z p.z + c for three edges, which have no z, and the plane: at least 0 within the edges, above 0
-  // behind the plane, each off by less than its error. Scaled so that the largest of x, y and z is within [1, 2).
+  /// What the filter knows of a face: x p.x + y p.y + z p.z + c for three edges, which have no z, and the plane: at
+  /// least 0 within the edges, above 0 behind the plane, each off by less than its error. Scaled so that the largest of
+  /// x, y and z is within [1, 2).
   struct alignas(64) Face {
     float x[4], y[4], c[4];
     float z, edge_error, plane_error, nearest;
   };
+  Face face_of(const Vector (&corners)[3], int side) const;  ///< of a side that is not 0
+  static Sides sides(const Face& face, const Asked& asked);
 
-  Face face_of(const Vector (&corners)[3], int side) const;
+  std::size_t memory_bytes() const noexcept { return sides_.size() + faces_.size() * sizeof(Face); }
 
+ private:
   const ParallelFrame& frame_;
   std::vector<std::int8_t> sides_;
   std::vector<Face> faces_;
