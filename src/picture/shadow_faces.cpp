@@ -19,7 +19,7 @@ constexpr std::size_t kGroup = ShadowPlanes::kFaces;
 
 // Open pairs are kept until there are this many: by then most of their points are blocked for certain. Of given points
 // more are open, those on their own faces: the later they are asked, the fewer.
-constexpr std::size_t kMostUndecided = std::size_t{1} << 16, kMostUndecidedGiven = std::size_t{1} << 20;
+constexpr std::size_t kMostUndecided = std::size_t{1} << 16, kMostUndecidedGiven = std::size_t{1} << 18;
 
 // Pairs that are decided together: while they are, their points' other pairs are not left out.
 constexpr std::size_t kGivenPairs = 1024;

@@ -16,6 +16,17 @@ namespace {
 // What the kernel reaches past the end.
 constexpr std::size_t kPadding = 64;
 
+// Points whose own faces are on their way from memory while others are asked.
+constexpr std::size_t kAhead = 16;
+
+void prefetch_own(const PointQuestion& question, const AskedPoints& points, std::size_t point) {
+  const std::uint32_t own = points.faces[point];
+  if (own == kNoOwnFace) return;
+  for (const std::uint32_t corner : question.faces.mesh().triangles[own]) {
+    __builtin_prefetch(&question.faces.mesh().positions[corner]);
+  }
+}
+
 // Bounds that leave every point open.
 constexpr std::uint32_t kOpen = 0xffff0000u;
 
@@ -82,6 +93,7 @@ std::size_t CellSorter::find_cells(const PointQuestion& question, std::size_t fi
   if (bounds_ == nullptr) return found;
   for (std::size_t i = 0; i < count; ++i) visible[i] = scratch.dark[i] == 0;
   for (std::uint32_t i = 0; !question.targets.faces.empty() && i < count; ++i) {
+    if (i + kAhead < count && visible[i + kAhead] == 0) prefetch_own(question, points, i + kAhead);
     if (visible[i] != 0 || !may_be_dark_by_own(question, points, i)) continue;
     visible[i] = 1;
     add(i, kOddCell);

@@ -15,9 +15,9 @@ class PointCosts {
   /// All faces are passed over; the more points there are, the more faces are held against some.
   double by_faces(std::size_t points) const {
     const double n = static_cast<double>(points);
-    return (4 + 28 * std::sqrt(std::min(1.0, n / faces_))) * faces_ + 45 * n;
+    return (10 + 26 * std::sqrt(std::min(1.0, n / faces_))) * faces_ + 45 * n;
   }
-  double by_lists(std::size_t points) const { return 150 * static_cast<double>(points); }
+  double by_lists(std::size_t points) const { return 120 * static_cast<double>(points); }
   double saved_by_bounds(std::size_t points) const { return 10 * static_cast<double>(points); }
 
   double making_lists() const { return 850 * faces_; }
