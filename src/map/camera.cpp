@@ -1,5 +1,6 @@
 #include <facemap/camera.h>
 
+#include <cmath>
 #include <utility>
 
 #include "map/face_planes.h"
@@ -39,16 +40,34 @@ Camera::Hit Camera::nearest(const Vector& direction, Counters* counters) const {
 
 void Camera::meet_faces(const Texel& texel, const Vector& direction, NearestHit& best, Counters* counters) const {
   const RayTests tests{scene(), planes(), position(), direction, counters};
+  // Faces are met after a look at those listed beside them: some are surely behind others.
+  struct Met {
+    std::uint32_t id;
+    bool strictly_inside;
+    double low;
+  };
+  Met met[RayTests::kChunk];
+  std::size_t met_count = 0;
+  double nearest_high = HUGE_VAL;
+  const auto meet = [&] {
+    for (std::size_t i = 0; i < met_count; ++i) {
+      if (!(met[i].low > nearest_high)) best.meet(met[i].id, planes().side(met[i].id), met[i].strictly_inside);
+    }
+    met_count = 0;
+  };
+  const auto ends = [&](std::uint32_t id) {
+    meet();
+    return planes().nearest(id) > best.reach() * planes().scale() * (1 + Texels::kDepthMargin);
+  };
   // Calls is_there(id) for each face that is met.
   const auto meet_listed = [&](std::span<const std::uint32_t> ids, const auto& is_there) {
-    tests.for_each_met(
-        ids,
-        [&](std::uint32_t id) {
-          return planes().nearest(id) > best.reach() * planes().scale() * (1 + Texels::kDepthMargin);
-        },
-        [&](std::uint32_t id, const Covering& covering) {
-          if (is_there(id)) best.meet(id, planes().side(id), covering.strictly_inside);
-        });
+    tests.for_each_met(ids, ends, [&](std::uint32_t id, const Covering& covering) {
+      if (!is_there(id)) return;
+      const RayTests::Range range = tests.range_of(id);
+      met[met_count++] = {id, covering.strictly_inside, range.low};
+      if (range.high < nearest_high) nearest_high = range.high;
+    });
+    meet();
   };
   meet_listed(faces_at(texel.x, texel.y), [](std::uint32_t) { return true; });
   meet_listed(cut_outs_at(texel.x, texel.y),

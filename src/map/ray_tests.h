@@ -3,6 +3,7 @@
 #include <facemap/scene.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -24,6 +25,22 @@ struct RayTests {
 
   /// Entries given to the filter at a time: lists are front to back, and most rays end within the first few.
   static constexpr std::size_t kChunk = 16;
+
+  /// Bounds of how far along filter.d, in map units, the plane of a face is that is met: what the face's plane in
+  /// float32 tells. The first may be negative, the second infinite, either no number.
+  struct Range {
+    double low, high;
+  };
+  Range range_of(std::uint32_t id) const {
+    constexpr double kRounding = 0x1p-40;  // of what follows, relative, with a wide reserve
+    const simd::FacePlanes& p = planes.planes()[id];
+    const double slope = double{p.x[3]} * double{filter.d[0]} + double{p.y[3]} * double{filter.d[1]} +
+                         double{p.z[3]} * double{filter.d[2]};
+    const double error = double{p.error} * double{filter.length} + double{simd::kUnderflow};
+    const double offset = p.offset, offset_error = p.offset_error;
+    return {(offset - offset_error) / (slope + error) * (1 - kRounding),
+            slope > error ? (offset + offset_error) / (slope - error) * (1 + kRounding) : HUGE_VAL};
+  }
 
   /// Calls visit(id, covering) for each of the faces that is met, until ends(id) says of one that begins a chunk that
   /// it and those behind it do not matter.
