@@ -11,7 +11,7 @@
 namespace facemap {
 namespace {
 
-constexpr std::size_t kMostPoints = std::size_t{1} << 22;  // at once
+constexpr std::size_t kMostPoints = std::size_t{1} << 20;  // at once: what they take is kept
 
 // Fewer points are not worth an order of their own.
 constexpr std::size_t kFewestSorted = std::size_t{1} << 16;
