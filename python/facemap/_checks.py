@@ -105,11 +105,11 @@ def progress(value: Any) -> Any:
     return value
 
 
-def core_of(scene: Any) -> Any:
+def core_of(scene: Any, name: str = "scene") -> Any:
     """A Scene's own scene."""
     core = getattr(scene, "_core", None)
     if not isinstance(core, _facemap.Scene):
-        raise TypeError(f"scene: a Scene is needed, not {_shown(scene)}")
+        raise TypeError(f"{name}: a Scene is needed, not {_shown(scene)}")
     return core
 
 

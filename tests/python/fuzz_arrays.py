@@ -21,6 +21,7 @@ from typing import Any, Callable, Dict, NamedTuple, Tuple
 import numpy as np
 
 import facemap
+from use_calls import use_calls
 from wild_values import wild_value
 
 REFUSALS = (TypeError, ValueError, IndexError)
@@ -88,7 +89,9 @@ def calls(directory: str) -> Dict[str, Call]:
         is_good = isinstance(detail, (int, np.integer)) and 1 <= detail <= 24
         facemap.generate(name, 25 if is_good else detail)  # good ones take seconds
 
+    uses = {name: Call(use, few(**good)) for name, (use, good) in use_calls().items()}
     return {
+        **uses,
         "Scene": Call(facemap.Scene, mesh),
         "Scene.from_object": Call(facemap.Scene.from_object, few(mesh=corner), ("vertices", "faces")),
         "Scene.add": Call(add, few(other=corner, transform=np.eye(4)), ("vertices", "faces")),
@@ -125,6 +128,8 @@ def is_proper(error: BaseException, call: Call, arguments: Dict[str, Any]) -> bo
     """Whether it is a refusal that says which argument it is about."""
     if isinstance(error, RuntimeError) and str(error) == "no":
         return True  # a value's own
+    if callable(arguments.get("progress")):
+        return True  # what it raises itself is passed on
     if not isinstance(error, REFUSALS):
         return False
     if isinstance(error, facemap.LoadError):

@@ -51,7 +51,7 @@ def terrain(heights: Any, spacing: float = 1.0, corner: Sequence[float] = (0.0, 
     step = _checks.finite_number("spacing", spacing)
     if not step > 0:
         raise ValueError(f"spacing: {step} is not above 0")
-    at = _checks.array("corner", corner)
+    at = _checks.finite("corner", _checks.array("corner", corner))
     if at.shape != (2,):
         raise ValueError(f"corner: the shape is {at.shape}, and two numbers are needed")
     is_y = _checks.choice("up", up, ("y", "z")) == "y"
@@ -61,6 +61,8 @@ def terrain(heights: Any, spacing: float = 1.0, corner: Sequence[float] = (0.0, 
     across = at[1] + step * row if is_y else at[1] - step * row
     known = np.where(np.isnan(grid), 0.0, grid)
     vertices = np.stack([x, known, across] if is_y else [x, across, known], axis=-1).reshape(-1, 3)
+    if not np.abs(vertices).max() < np.finfo(np.float32).max:
+        raise ValueError("heights, spacing, corner: a vertex would be too far away for float32")
     return Scene(vertices, _cells(~np.isnan(grid)))
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, List, Sequence
+import contextlib
+from typing import Any, Iterator, List, Sequence
 
 import numpy as np
 
@@ -10,6 +11,10 @@ from .. import _checks
 from ..camera import Camera
 from ..frame import Frame
 from ..scene import Scene
+
+_ARGUMENTS = {"matrix": "matrices", "distortion": "distortions", "pose": "poses",
+              "matrix, distortion": "matrices, distortions"}
+"""A camera's fields, and where they come from."""
 
 
 def camera_rig(scene: Scene, matrices: Any, distortions: Any, poses: Any, width: int, height: int, *, rig: Any = None,
@@ -53,6 +58,7 @@ def camera_rig(scene: Scene, matrices: Any, distortions: Any, poses: Any, width:
     >>> turned = np.diag([-1, 1, -1, 1])                        # the second camera looks back
     >>> ahead, back = facemap.camera_rig(scene, K, [0.05, 0.01, 0, 0], [np.eye(4), turned], 320, 240)
     """
+    _checks.core_of(scene)
     body = np.eye(4) if rig is None else _checks.transform("rig", rig)
     places = _many("poses", poses, (4, 4), None)
     lenses = _many("matrices", matrices, (3, 3), len(places))
@@ -60,13 +66,26 @@ def camera_rig(scene: Scene, matrices: Any, distortions: Any, poses: Any, width:
     cameras = [Camera.from_opencv(lens, bend, _checks.transform("poses", place) @ body,
                                   fisheye=_checks.truth("fisheye", fisheye))
                for lens, bend, place in zip(lenses, bends, places)]
-    return list(scene.frames(cameras, lights, width, height, samples, **options))
+    with _named():
+        return list(scene.frames(cameras, lights, width, height, samples, **options))
+
+
+@contextlib.contextmanager
+def _named() -> Iterator[None]:
+    """What is said of a camera's field gets the name of the argument that it comes from."""
+    try:
+        yield
+    except (TypeError, ValueError) as error:
+        field, _, reason = str(error).partition(":")
+        if field not in _ARGUMENTS:
+            raise
+        raise type(error)(f"{_ARGUMENTS[field]}:{reason}") from error
 
 
 def _many(name: str, value: Any, shape: Any, count: Any) -> np.ndarray:
     found = _checks.array(name, value).astype(np.float64)
     if count is not None and found.shape == shape:
-        return np.broadcast_to(found, (count,) + shape)
+        found = np.broadcast_to(found, (count,) + shape)
     if found.ndim != 3 or found.shape[1:] != shape or (count is not None and len(found) != count):
         wanted = (("n" if count is None else count),) + shape
         raise ValueError(f"{name}: the shape is {found.shape}, and {wanted} is needed".replace("'", ""))
@@ -76,7 +95,7 @@ def _many(name: str, value: Any, shape: Any, count: Any) -> np.ndarray:
 def _distortions(value: Any, count: int) -> Sequence[np.ndarray]:
     if value is None:
         return [np.zeros(0)] * count
-    found = _checks.array("distortions", value)
+    found = _checks.finite("distortions", _checks.array("distortions", value))
     if found.ndim == 1:
         return [found] * count
     if found.ndim != 2 or len(found) != count:

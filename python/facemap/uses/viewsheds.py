@@ -68,7 +68,7 @@ def viewshed(terrain: Scene, observers: Any, points: Any = None, *, of: str = "v
     >>> counts = facemap.viewshed(land, [[250, 0, 100], [400, 0, 300]], eye_height=1.7)
     >>> seen = counts.reshape(50, 80) > 0
     """
-    _checks.core_of(terrain)
+    _checks.core_of(terrain, "terrain")
     middle = _arrays.up_of(terrain, up)
     eyes, shape = _eyes(terrain, observers, _checks.finite_number("eye_height", eye_height),
                         _checks.truth("stand", stand), middle)
@@ -81,7 +81,7 @@ def viewshed(terrain: Scene, observers: Any, points: Any = None, *, of: str = "v
         rows = (View(terrain, eye, threads).visible_faces().visible for eye in eyes)
         return _gathered(rows, shape, (terrain.face_count,), _checks.truth("each", each))
     flat, targets_shape = _arrays.points_of(terrain.vertices if points is None else points)
-    targets = flat if lift == 0 else (flat + lift * middle).astype(np.float32)
+    targets = flat if lift == 0 else _lifted("target_height", flat, lift, middle)
     own = None if points is None else _arrays.flat_faces(faces, targets_shape, terrain.face_count)
     options = dict(faces=own, tolerance=tolerance, threads=threads)
     rows = _rows(terrain, eyes, targets, max_distance, options, progress)
@@ -95,13 +95,18 @@ def viewshed(terrain: Scene, observers: Any, points: Any = None, *, of: str = "v
 def _eyes(terrain: Scene, observers: Any, height: float, stand: bool, up: np.ndarray) -> Any:
     flat, shape = _arrays.points_of(observers, "observers")
     if not stand:
-        return (flat + height * up).astype(np.float32), shape
+        return _lifted("eye_height", flat, height, up), shape
     eyes = on_ground(terrain, flat, height, up=up)
     lost = np.isnan(eyes).any(axis=-1)
     if lost.any():
         raise ValueError(f"observers: there is no ground under or over {flat[lost][0].tolist()}; stand=False takes "
                          "observers where they are")
-    return eyes, shape
+    return _checks.finite("eye_height", eyes), shape
+
+
+def _lifted(name: str, points: np.ndarray, height: float, up: np.ndarray) -> np.ndarray:
+    with np.errstate(over="ignore"):
+        return _checks.finite(name, (points + height * up).astype(np.float32))
 
 
 def _rows(terrain: Scene, eyes: np.ndarray, targets: np.ndarray, max_distance: Optional[float],
