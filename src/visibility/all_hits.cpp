@@ -19,16 +19,17 @@ AllHits Viewpoint::all_hits(std::span<const Vector> directions, const Progress& 
   AllHits hits;
   if (directions.empty()) return hits;
   const RayLists& lists = kept_->whole_lists();
-  const RayOrder order(kept_->executor, directions.size(), lists.cells(),
-                       [&](std::size_t i) { return lists.cell_of(DVector(directions[i])); });
+  const RayOrder order(kept_->executor, lists, directions.size(),
+                       [&](std::size_t i) { return lists.place_of(DVector(directions[i])); });
   hits.begins.resize(directions.size() + 1);
   std::vector<std::vector<Meeting>> pieces((directions.size() + kPiece - 1) / kPiece);
   for_pieces(kept_->executor, directions.size(), kPiece, progress,
              [&](std::size_t first, std::size_t last, std::size_t piece) {
-               for (std::size_t place = first; place < last; ++place) {
-                 const std::size_t i = order[place];
+               for (std::size_t k = first; k < last; ++k) {
+                 const std::size_t i = order[k];
+                 order.prefetch_after(k, directions.data());
                  const std::size_t before = pieces[piece].size();
-                 lists.meet_all(directions[i], pieces[piece]);
+                 lists.meet_all(order.place(k), directions[i], pieces[piece]);
                  hits.begins[i + 1] = pieces[piece].size() - before;
                }
              });
@@ -38,8 +39,8 @@ AllHits Viewpoint::all_hits(std::span<const Vector> directions, const Progress& 
   kept_->executor.for_each(pieces.size(), [&](std::size_t piece, int) {
     const Meeting* meeting = pieces[piece].data();
     const std::size_t end = std::min((piece + 1) * kPiece, directions.size());
-    for (std::size_t place = piece * kPiece; place < end; ++place) {
-      const std::size_t i = order[place];
+    for (std::size_t k = piece * kPiece; k < end; ++k) {
+      const std::size_t i = order[k];
       for (std::size_t to = hits.begins[i]; to < hits.begins[i + 1]; ++to, ++meeting) {
         hits.faces[to] = meeting->face;
         hits.distances[to] = meeting->distance;

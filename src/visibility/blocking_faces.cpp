@@ -43,14 +43,15 @@ void Viewpoint::blocked_by(const Targets& targets, std::span<FaceId> blockers, c
   };
   const RayLists& near = kept_->near_lists();
   const DVector origin(kept_->origin);
-  const RayOrder order(kept_->executor, count, near.cells(),
-                       [&](std::size_t i) { return near.cell_of(DVector(targets.points[i]) - origin); });
+  const auto offset_of = [&](std::size_t i) { return DVector(targets.points[i]) - origin; };
+  const RayOrder order(kept_->executor, near, count, [&](std::size_t i) { return near.place_of(offset_of(i)); });
   std::vector<std::size_t> open;
   std::mutex adding;
   for_pieces(kept_->executor, count, kPiece, progress, [&](std::size_t first, std::size_t last, std::size_t) {
-    for (std::size_t place = first; place < last; ++place) {
-      const std::size_t i = order[place];
-      const std::optional<FaceId> blocker = near.first_blocker(targets.points[i], skip_of(i));
+    for (std::size_t k = first; k < last; ++k) {
+      const std::size_t i = order[k];
+      order.prefetch_after(k, targets.points.data());
+      const std::optional<FaceId> blocker = near.first_blocker(order.place(k), targets.points[i], skip_of(i));
       blockers[i] = blocker.value_or(kNoFace);
       if (blocker) continue;
       const std::scoped_lock lock(adding);
@@ -61,7 +62,8 @@ void Viewpoint::blocked_by(const Targets& targets, std::span<FaceId> blockers, c
   const RayLists& whole = kept_->whole_lists();
   for_pieces(kept_->executor, open.size(), kPiece, {}, [&](std::size_t first, std::size_t last, std::size_t) {
     for (std::size_t k = first; k < last; ++k) {
-      blockers[open[k]] = *whole.first_blocker(targets.points[open[k]], skip_of(open[k]));
+      const std::size_t i = open[k];
+      blockers[i] = *whole.first_blocker(whole.place_of(offset_of(i)), targets.points[i], skip_of(i));
     }
   });
 }

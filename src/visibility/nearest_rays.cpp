@@ -17,13 +17,14 @@ void Viewpoint::nearest(std::span<const Vector> directions, std::span<FaceId> fa
   check_size(distances.size(), directions.size());
   if (directions.empty()) return;
   const RayLists& lists = kept_->near_lists();
-  const RayOrder order(kept_->executor, directions.size(), lists.cells(),
-                       [&](std::size_t i) { return lists.cell_of(DVector(directions[i])); });
+  const RayOrder order(kept_->executor, lists, directions.size(),
+                       [&](std::size_t i) { return lists.place_of(DVector(directions[i])); });
   for_pieces(kept_->executor, directions.size(), kPiece, progress,
              [&](std::size_t first, std::size_t last, std::size_t) {
-               for (std::size_t place = first; place < last; ++place) {
-                 const std::size_t i = order[place];
-                 const Camera::Hit hit = lists.nearest(directions[i]);
+               for (std::size_t k = first; k < last; ++k) {
+                 const std::size_t i = order[k];
+                 order.prefetch_after(k, directions.data());
+                 const Camera::Hit hit = lists.nearest(order.place(k), directions[i]);
                  faces[i] = hit.face;
                  distances[i] = hit.depth;
                }

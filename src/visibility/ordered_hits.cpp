@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <optional>
 #include <span>
 
 #include "map/face_planes.h"
@@ -34,9 +33,7 @@ struct Order {
 
 }  // namespace
 
-void RayMap::meet_all(const Vector& direction, std::vector<Meeting>& meetings) const {
-  const std::optional<Texel> texel = texel_of(DVector(direction));
-  if (!texel) return;
+void RayMap::meet_all(const Texel& texel, const Vector& direction, std::vector<Meeting>& meetings) const {
   std::vector<Entry> entries;
   const auto add = [&](std::uint32_t id) {
     const Triangle corners = triangle_of(scene(), id);
@@ -51,8 +48,8 @@ void RayMap::meet_all(const Vector& direction, std::vector<Meeting>& meetings) c
           if (is_there(id)) add(id);
         });
   };
-  meet(faces_at(texel->x, texel->y), [](std::uint32_t) { return true; });
-  meet(cut_outs_at(texel->x, texel->y),
+  meet(faces_at(texel.x, texel.y), [](std::uint32_t) { return true; });
+  meet(cut_outs_at(texel.x, texel.y),
        [&](std::uint32_t id) { return cut_outs().is_there(id, DVector(position()), DVector(direction)); });
   std::sort(entries.begin(), entries.end(), Order{position(), direction});
   const double size = length(DVector(direction));

@@ -12,8 +12,6 @@ namespace {
 
 constexpr std::size_t kSides = 6;  // of a cube: +x, -x, +y, -y, +z, -z
 
-constexpr std::size_t kCell = 8;  // texels a side
-
 // Share by which the raster of a side is wider than the side: no rounding leads out of it.
 constexpr double kRim = 1e-3;
 
@@ -36,8 +34,7 @@ std::size_t side_of(const DVector& d) {
 }  // namespace
 
 RayLists::RayLists(const MapFaces& faces, const Vector& origin, const std::shared_ptr<const FacePlanesTable>& planes,
-                   bool keep_all, const Executor& executor)
-    : origin_(origin) {
+                   bool keep_all, const Executor& executor) {
   const SpaceVector frame = SpaceVector::looking_along(origin, sight_of_light(faces.all(), origin));
   const Projection before = light_projection(faces.all(), frame, {});
   if (before.kind() == ProjectionKind::Plane) {
@@ -55,32 +52,47 @@ RayLists::RayLists(const MapFaces& faces, const Vector& origin, const std::share
 }
 
 void RayLists::count_cells() {
-  cell_columns_ = static_cast<std::size_t>(maps_[0]->width()) / kCell + 1;
-  cell_rows_ = static_cast<std::size_t>(maps_[0]->height()) / kCell + 1;
+  cell_columns_ = static_cast<Place>(maps_[0]->width()) / kCell + 1;
+  cell_rows_ = static_cast<Place>(maps_[0]->height()) / kCell + 1;
 }
 
-// Whichever for what is not finite: it has no texel anywhere.
-std::size_t RayLists::map_number(const DVector& direction) const { return maps_.size() == 1 ? 0 : side_of(direction); }
-
-std::uint32_t RayLists::cell_of(const DVector& direction) const {
-  const std::size_t map = map_number(direction);
+// By map, row and column of cells, row and column in the cell.
+RayLists::Place RayLists::place_of(const DVector& direction) const {
+  const std::size_t map = maps_.size() == 1 ? 0 : side_of(direction);
   const std::optional<FaceMap::Texel> texel = maps_[map]->texel_of(direction);
-  if (!texel) return 0;
-  const std::size_t row = map * cell_rows_ + static_cast<std::size_t>(texel->y) / kCell;
-  return static_cast<std::uint32_t>(row * cell_columns_ + static_cast<std::size_t>(texel->x) / kCell);
+  if (!texel) return kNowhere;
+  const auto x = static_cast<Place>(texel->x), y = static_cast<Place>(texel->y);
+  const Place row = static_cast<Place>(map) * cell_rows_ + y / kCell;
+  return (row * cell_columns_ + x / kCell) * kCellTexels + y % kCell * kCell + x % kCell;
 }
 
-Camera::Hit RayLists::nearest(const Vector& direction) const { return map_of(DVector(direction)).nearest(direction); }
-
-std::optional<FaceId> RayLists::first_blocker(const Vector& point, std::uint32_t skip) const {
-  return map_of(DVector(point) - DVector(origin_)).first_blocker(point, skip);
+RayLists::Spot RayLists::spot_of(Place place) const {
+  const Place cell = place / kCellTexels, row = cell / cell_columns_, within = place % kCellTexels;
+  const Place x = cell % cell_columns_ * kCell + within % kCell, y = row % cell_rows_ * kCell + within / kCell;
+  return {*maps_[row / cell_rows_], {static_cast<int>(x), static_cast<int>(y)}};
 }
 
-void RayLists::meet_all(const Vector& direction, std::vector<Meeting>& meetings) const {
-  map_of(DVector(direction)).meet_all(direction, meetings);
+Camera::Hit RayLists::nearest(Place place, const Vector& direction) const {
+  if (place == kNowhere) return {};
+  const Spot spot = spot_of(place);
+  return spot.map.nearest_in(spot.texel, direction);
 }
 
-int RayLists::count_hits(const Vector& direction) const { return map_of(DVector(direction)).count_hits(direction); }
+std::optional<FaceId> RayLists::first_blocker(Place place, const Vector& point, std::uint32_t skip) const {
+  if (place == kNowhere) return kNoFace;
+  const Spot spot = spot_of(place);
+  return spot.map.first_blocker(spot.texel, point, skip);
+}
+
+void RayLists::meet_all(Place place, const Vector& direction, std::vector<Meeting>& meetings) const {
+  if (place == kNowhere) return;
+  const Spot spot = spot_of(place);
+  spot.map.meet_all(spot.texel, direction, meetings);
+}
+
+int RayLists::count_hits(Place place, const Vector& direction) const {
+  return place == kNowhere ? 0 : spot_of(place).map.count_hits(direction);
+}
 
 std::size_t RayLists::memory_bytes() const {
   std::size_t bytes = 0;

@@ -7,6 +7,7 @@
 #include "map/face_planes.h"
 #include "map/list_point.h"
 #include "map/map_faces.h"
+#include "map/nearest_hit.h"
 #include "math/dvector.h"
 #include "math/exact_sign.h"
 #include "simd/list_points.h"
@@ -24,11 +25,15 @@ RayMap::RayMap(const MapFaces& faces, const SpaceVector& frame, const Projection
                std::shared_ptr<const FacePlanesTable> planes, bool keep_all)
     : Camera(faces, frame, projection, std::move(planes), keep_all) {}
 
-std::optional<FaceId> RayMap::first_blocker(const Vector& point, std::uint32_t skip) const {
+Camera::Hit RayMap::nearest_in(const Texel& texel, const Vector& direction) const {
+  NearestHit best(scene(), position(), direction, nullptr);
+  meet_faces(texel, direction, best, nullptr);
+  return best.with_depth();
+}
+
+std::optional<FaceId> RayMap::first_blocker(const Texel& texel, const Vector& point, std::uint32_t skip) const {
   const GivenPoint given{point};
   const DVector offset = offset_from(position(), given);
-  const std::optional<Texel> texel = texel_of(offset);
-  if (!texel) return kNoFace;
   const double length_in_map = length(offset) * planes().scale();
   const bool is_for_filter = length_in_map < simd::kLargestOffset;
   const simd::ListPoint asked =
@@ -52,12 +57,12 @@ std::optional<FaceId> RayMap::first_blocker(const Vector& point, std::uint32_t s
       }
     }
   };
-  meet_listed(faces_at(texel->x, texel->y), [](std::uint32_t) { return true; });
+  meet_listed(faces_at(texel.x, texel.y), [](std::uint32_t) { return true; });
   const std::size_t index =
-      static_cast<std::size_t>(texel->y) * static_cast<std::size_t>(width()) + static_cast<std::size_t>(texel->x);
+      static_cast<std::size_t>(texel.y) * static_cast<std::size_t>(width()) + static_cast<std::size_t>(texel.x);
   // Faces that are missing begin beyond the cut; one that is not skipped fills the texel before them.
   if (skip != kSkipNone && is_beyond(reach(), texels().cut(index))) return std::nullopt;
-  meet_listed(cut_outs_at(texel->x, texel->y), [&](std::uint32_t id) {
+  meet_listed(cut_outs_at(texel.x, texel.y), [&](std::uint32_t id) {
     return cut_outs().is_there(id, DVector(point), DVector(position()) - DVector(point));
   });
   return first.face();

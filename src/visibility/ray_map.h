@@ -23,12 +23,16 @@ class RayMap : public Camera {
 
   static constexpr std::uint32_t kSkipNone = 0xffffffffu;
 
-  /// What Viewpoint::blocked_by answers for one point, or nothing if the lists do not tell: the faces behind one that
-  /// fills a texel are not kept, and `skip` may be that face.
-  std::optional<FaceId> first_blocker(const Vector& point, std::uint32_t skip) const;
+  /// As Camera::nearest, for a direction of the texel.
+  Camera::Hit nearest_in(const Texel& texel, const Vector& direction) const;
 
-  /// Adds all faces that the ray along `direction` meets, in the order of Viewpoint::all_hits. The map must keep all.
-  void meet_all(const Vector& direction, std::vector<Meeting>& meetings) const;
+  /// What Viewpoint::blocked_by answers for one point in a direction of the texel, or nothing if the lists do not tell:
+  /// the faces behind one that fills a texel are not kept, and `skip` may be that face.
+  std::optional<FaceId> first_blocker(const Texel& texel, const Vector& point, std::uint32_t skip) const;
+
+  /// Adds all faces that the ray along `direction`, which is of the texel, meets, in the order of Viewpoint::all_hits.
+  /// The map must keep all.
+  void meet_all(const Texel& texel, const Vector& direction, std::vector<Meeting>& meetings) const;
 };
 
 }  // namespace facemap

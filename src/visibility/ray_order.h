@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "parallel/executor.h"
+#include "visibility/ray_lists.h"
 
 namespace facemap {
 
@@ -13,15 +13,29 @@ namespace facemap {
 /// else wait for memory.
 class RayOrder {
  public:
-  /// By cell_of(i), which is below `cells`; as they come if they are few, or come in runs of one cell already.
-  RayOrder(const Executor& executor, std::size_t count, std::size_t cells,
-           const std::function<std::uint32_t(std::size_t)>& cell_of);
+  using Place = RayLists::Place;
 
-  /// The number of the ray at a place of the order.
-  std::size_t operator[](std::size_t place) const { return order_.empty() ? place : order_[place]; }
+  /// Of rays that have lists at place_of(i): as they come if they are few, or come in runs of one cell already.
+  RayOrder(const Executor& executor, const RayLists& lists, std::size_t count,
+           std::function<Place(std::size_t)> place_of);
+
+  /// The number of the ray that comes k-th.
+  std::size_t operator[](std::size_t k) const { return order_.empty() ? k : order_[k]; }
+
+  /// Where it has its list.
+  Place place(std::size_t k) const { return places_.empty() ? place_of_(k) : places_[k]; }
+
+  /// Has the processor fetch what is kept of a later ray in an array by number.
+  template <class T>
+  void prefetch_after(std::size_t k, const T* by_number) const {
+    constexpr std::size_t kAhead = 8;
+    if (k + kAhead < order_.size()) __builtin_prefetch(by_number + order_[k + kAhead]);
+  }
 
  private:
+  std::function<Place(std::size_t)> place_of_;
   std::vector<std::uint32_t> order_;  // none: as they come
+  std::vector<Place> places_;         // in that order; none: not kept
 };
 
 }  // namespace facemap

@@ -61,10 +61,11 @@ Image Viewpoint::image(const ImageOptions& options, const Progress& progress) co
     for (std::size_t i = first; i < last; ++i) {
       const Vector direction = rays.direction(i);
       if (direction == Vector(0)) continue;
-      const Camera::Hit nearest = lists.nearest(direction);
+      const RayLists::Place place = lists.place_of(DVector(direction));
+      const Camera::Hit nearest = lists.nearest(place, direction);
       image.ids[i] = nearest.face;
       image.depths[i] = nearest.depth;
-      hits[i] = lists.count_hits(direction);
+      hits[i] = lists.count_hits(place, direction);
     }
   });
   const int most = *std::max_element(hits.begin(), hits.end());
