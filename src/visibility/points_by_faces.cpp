@@ -96,9 +96,7 @@ class FacesAsked {
     put_points(question_.faces, targets, 0, end - begin, scratch->points);
     clear_hidden({question_.faces, question_.origin, targets, visible}, scratch->points, 0,
                  {visible.data(), visible.data(), 1, 0}, some_faces);
-    for (std::size_t k = 0; k < visible.size(); ++k) {
-      if (visible[k] == 0) question_.visible[sorted.number(begin + k)] = 0;
-    }
+    for (std::size_t k = 0; k < visible.size(); ++k) question_.visible[sorted.number(begin + k)] = visible[k];
   }
 
   void ask_by_sides(const Chunk& chunk) const {
