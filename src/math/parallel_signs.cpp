@@ -64,7 +64,10 @@ bool blocks_along(const Triangle& G, int s_G, const Vector& d, const TruePoint& 
   return blocks_along_staged(G, s_G, d, point, counters);
 }
 
+// A corner of G lies on G's plane, which only integers would see.
 bool blocks_along(const Triangle& G, int s_G, const Vector& d, const GivenPoint& point, Counters* counters) {
+  const bool is_corner = point.P == G[0] || point.P == G[1] || point.P == G[2];
+  if (is_corner && point.on_face == nullptr) return false;
   return blocks_along_staged(G, s_G, d, point, counters);
 }
 
