@@ -2,6 +2,7 @@
 //
 //   facemap-visibility-bench                       a million random points on the chessboard's faces, 1 and 2 threads
 //   facemap-visibility-bench --points 10000 --threads 1 --repeat 15 --scene grass
+//   facemap-visibility-bench --many                1,000 origins and 10,000 points of the grass
 //
 // A point that is rounded to float32 may lie behind its own face, which then hides it: Embree's rays end short of that,
 // FaceMap is told in the row of own faces.
@@ -12,6 +13,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "visibility_many.h"
 #include "visibility_one_origin.h"
 #include "visibility_options.h"
 
@@ -19,7 +21,12 @@ using namespace facemap::bench;
 
 int main(int argc, char** argv) {
   try {
-    measure_one_origin(read_visibility_settings(argc, argv));
+    const VisibilitySettings settings = read_visibility_settings(argc, argv);
+    if (settings.many) {
+      measure_many_origins(settings);
+    } else {
+      measure_one_origin(settings);
+    }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "facemap-visibility-bench: %s\n", error.what());
     return 1;

@@ -13,6 +13,8 @@ VisibilitySettings read_visibility_settings(int argc, char** argv) {
   parser.add_option("--points", settings.points, "random points on the faces")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
+  parser.add_flag("--many", settings.many, "many origins at once: the scene is grass, and 10,000 points, unless given");
+  parser.add_option("--origins", settings.origins, "with --many")->capture_default_str()->check(CLI::PositiveNumber);
   parser.add_option("--threads", settings.threads, "numbers of threads, one row each")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
@@ -25,6 +27,8 @@ VisibilitySettings read_visibility_settings(int argc, char** argv) {
   } catch (const CLI::ParseError& stop) {
     std::exit(parser.exit(stop));
   }
+  if (settings.many && parser.count("--scene") == 0) settings.scenes = {"grass"};
+  if (settings.many && parser.count("--points") == 0) settings.points = 10000;
   return settings;
 }
 

@@ -11,6 +11,8 @@ namespace facemap::bench {
 struct VisibilitySettings {
   std::vector<std::string> scenes{"chessboard"};  ///< as facemap-bench names them
   std::size_t points = 1000000;
+  bool many = false;           ///< many origins at once
+  std::size_t origins = 1000;  ///< of those
   std::vector<int> threads{1, 2};
   int repeat = 7;  ///< interleaved rounds
   std::uint64_t seed = 5;

@@ -15,8 +15,11 @@ struct Segment {
   float near, far;
 };
 
-Segment segment(const Vector& origin, const Vector& point, bool from_point) {
-  return from_point ? Segment{point, origin - point, kShort, 1} : Segment{origin, point - origin, 0, 1 - kShort};
+Segment segment(const Vector& origin, const Vector& point, const OcclusionWay& way) {
+  if (way.hub_is_point) {
+    return way.from_point ? Segment{point, origin - point, 0, 1 - kShort} : Segment{origin, point - origin, kShort, 1};
+  }
+  return way.from_point ? Segment{point, origin - point, kShort, 1} : Segment{origin, point - origin, 0, 1 - kShort};
 }
 
 RTCIntersectContext context_for(const OcclusionWay& way) {
@@ -37,7 +40,7 @@ void ask_packets(RTCScene scene, const Vector& origin, std::span<const Vector> p
   for (std::size_t first = 0; first < points.size(); first += kWidth) {
     const std::size_t count = std::min(points.size() - first, std::size_t{kWidth});
     for (std::size_t i = 0; i < kWidth; ++i) {
-      const Segment s = segment(origin, points[first + std::min(i, count - 1)], way.from_point);
+      const Segment s = segment(origin, points[first + std::min(i, count - 1)], way);
       rays.org_x[i] = s.from.x;
       rays.org_y[i] = s.from.y;
       rays.org_z[i] = s.from.z;
@@ -63,7 +66,7 @@ void ask_streams(RTCScene scene, const Vector& origin, std::span<const Vector> p
   alignas(64) RTCRay rays[kStream];
   for (std::size_t first = 0; first < points.size(); first += kStream) {
     const std::size_t count = std::min(points.size() - first, kStream);
-    for (std::size_t i = 0; i < count; ++i) rays[i] = ray_of(segment(origin, points[first + i], way.from_point));
+    for (std::size_t i = 0; i < count; ++i) rays[i] = ray_of(segment(origin, points[first + i], way));
     rtcOccluded1M(scene, &context, rays, static_cast<unsigned>(count), sizeof(RTCRay));
     for (std::size_t i = 0; i < count; ++i) visible[first + i] = rays[i].tfar >= 0;
   }
@@ -73,7 +76,7 @@ void ask_singly(RTCScene scene, const Vector& origin, std::span<const Vector> po
                 std::uint8_t* visible) {
   RTCIntersectContext context = context_for(way);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    RTCRay ray = ray_of(segment(origin, points[i], way.from_point));
+    RTCRay ray = ray_of(segment(origin, points[i], way));
     rtcOccluded1(scene, &context, &ray);
     visible[i] = ray.tfar >= 0;
   }

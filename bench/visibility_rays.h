@@ -15,7 +15,8 @@ namespace facemap::bench {
 struct OcclusionWay {
   enum class Rays { Packets, Stream, Single } rays = Rays::Packets;
   bool coherent = false;
-  bool from_point = false;  ///< else from the origin to the point, short of it
+  bool from_point = false;    ///< else from the origin to the point, short of it
+  bool hub_is_point = false;  ///< what is called the origin is the point, and the points are origins
 
   std::string name() const;
 };

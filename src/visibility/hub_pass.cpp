@@ -220,7 +220,7 @@ void HubPass::ask_singly(const Scene& scene, const FacePacks& packs, std::uint32
 
 std::size_t HubPass::bytes_for(std::size_t count) {
   const auto texels = static_cast<std::size_t>(texels_for(count));
-  return count * (17 * sizeof(std::uint32_t) + sizeof(simd::HubVerdict) + sizeof(Open)) +
+  return count * (17 * sizeof(std::uint32_t) + sizeof(simd::HubVerdict) + sizeof(Open) + sizeof(Blocker) + 1) +
          2 * kHubSides * (texels + 1) * (texels + 1) * sizeof(std::uint32_t);
 }
 
