@@ -125,6 +125,7 @@ class Match {
                 a.least, a.most, b.median, b.least, b.most, b.median / a.median);
     std::printf("  %-17s %s; %zu of %zu visible, %zu answers differ\n", "", way.name().c_str(), seen, points_.size(),
                 differ);
+    std::fflush(stdout);
   }
 
   const Scene& scene_;
