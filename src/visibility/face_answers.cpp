@@ -10,7 +10,8 @@
 namespace facemap {
 namespace {
 
-constexpr std::size_t kStepsAPiece = 32;  // as long as a face has so many, it may be cut up further
+// A face is cut into a piece for each so many steps that it may take, and into no more than these.
+constexpr std::size_t kStepsAPiece = 32, kMostPieces = 512;
 
 // A step is a face of a patch; these take about as long.
 constexpr std::size_t kBoxesAStep = 20, kFacesOnARayAStep = 4;
@@ -43,7 +44,7 @@ FaceAnswers::Answer FaceAnswers::decide(std::uint32_t id, std::size_t most_steps
     }
     const std::size_t before = pieces_.size(), steps = patch_.steps() - first_step + ray_steps_;
     const bool has_steps = std::max(steps, before * kStepsAPiece) < most_steps;
-    if (has_steps) piece.divide(cut_, whole, pieces_);
+    if (has_steps && before < kMostPieces) piece.divide(cut_, whole, pieces_);
     if (pieces_.size() == before) {
       if (pieces != nullptr) pieces->clear();
       return {FaceVisibility::Undecided, HiddenReason::None, Vector(0), !has_steps};

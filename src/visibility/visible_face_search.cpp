@@ -17,6 +17,7 @@ constexpr std::size_t kFacesATask = 512;
 // share have a second one, of fewer together.
 constexpr std::size_t kStepsTogether = std::size_t{1} << 27, kMoreStepsTogether = 1 << 22;
 constexpr std::size_t kFewestSteps = 1 << 12, kMostSteps = 1 << 20;
+constexpr std::size_t kShareGrowth = 4;  // a second share is a multiple of the first, by a power of this
 
 std::size_t share_of(std::size_t steps, std::size_t faces) {
   return std::clamp(steps / std::max<std::size_t>(faces, 1), kFewestSteps, kMostSteps);
@@ -47,7 +48,8 @@ VisibleFaceSearch::VisibleFaceSearch(const MapFaces& faces, const Vector& origin
       origin_(origin),
       sides_(sides_of(faces.all(), origin, executor)),
       neighbours_(find_face_neighbours(faces.solid())),
-      tree_(faces.scene, not_edge_on(faces.all(), sides_), origin, executor) {}
+      tree_(faces.scene, not_edge_on(faces.all(), sides_), origin, executor),
+      share_(share_of(kStepsTogether, faces.all().kept_faces().size())) {}
 
 // Decides faces, each in at most so many steps, and leaves of them those that need more.
 void VisibleFaceSearch::decide(std::vector<std::uint32_t>& open, std::size_t steps, std::size_t faces_a_task,
@@ -80,18 +82,23 @@ VisibleFaces VisibleFaceSearch::find(const Executor& executor, const Viewpoint::
                        std::vector<Vector>(count, Vector(0)), std::vector<HiddenReason>(count, HiddenReason::LeftOut)};
   for (const std::uint32_t face : faces_.all().kept_faces()) answers.reasons[face] = HiddenReason::EdgeOn;
   std::vector<std::uint32_t> open = tree_.in_order(count);
-  ToldProgress told(progress, open.size());
-  const std::size_t share = share_of(kStepsTogether, open.size());
-  decide(open, share, kFacesATask, executor, told, answers);
-  const std::size_t larger = share_of(kMoreStepsTogether, open.size());
-  if (larger > share) decide(open, larger, 1, executor, told, answers);
+  ToldProgress told(progress, std::max<std::size_t>(open.size(), 1));
+  decide(open, share_, kFacesATask, executor, told, answers);
+  const std::size_t most = share_of(kMoreStepsTogether, open.size());
+  std::size_t steps = share_;
+  while (steps * kShareGrowth <= most) steps *= kShareGrowth;
+  if (steps > share_) decide(open, steps, 1, executor, told, answers);
   told.add(open.size());
   return answers;
 }
 
+// With each share that the face may have had.
 std::vector<CoveredPiece> VisibleFaceSearch::covered_pieces(std::uint32_t face) const {
   std::vector<CoveredPiece> pieces;
-  if (sides_[face] != 0) FaceAnswers(*this).decide(face, kMostSteps, &pieces);
+  if (sides_[face] == 0) return pieces;
+  FaceAnswers answers(*this);
+  std::size_t steps = share_;
+  while (answers.decide(face, steps, &pieces).ran_out && steps <= kMostSteps) steps *= kShareGrowth;
   return pieces;
 }
 

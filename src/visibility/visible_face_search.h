@@ -40,6 +40,7 @@ class VisibleFaceSearch {
   std::vector<std::int8_t> sides_;          // 0 for faces that no map has, too
   std::vector<FaceNeighbours> neighbours_;  // of solid faces
   FaceTree tree_;
+  std::size_t share_;  // of steps, that each face may take
 };
 
 }  // namespace facemap

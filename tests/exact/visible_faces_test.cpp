@@ -271,6 +271,35 @@ TEST(VisibleFaces, FacesTurnedAwayMayBeSeen) {
   EXPECT_EQ(std::count(answers.faces.begin(), answers.faces.end(), FaceVisibility::Hidden), 6);
 }
 
+// A tent before a face reaches down to it in one point. There the face wins if its number is lower, as they are turned
+// the same way: then it may not be called hidden.
+TEST(VisibleFaces, AFaceThatWinsInOnePointIsNotHidden) {
+  const auto add_tent = [](Mesh& mesh) {
+    const Vector corners[] = {{-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
+    for (int i = 0; i < 4; ++i) test_scenes::add_triangle(mesh, corners[i], corners[(i + 1) % 4], {0, 0, 2});
+  };
+  const auto add_floor = [](Mesh& mesh) {
+    test_scenes::add_triangle(mesh, {-0.4f, -0.4f, 2}, {0.8f, -0.4f, 2}, {-0.4f, 0.9f, 2});
+  };
+  Mesh floor_first, tent_first;
+  add_floor(floor_first);
+  add_tent(floor_first);
+  add_tent(tent_first);
+  add_floor(tent_first);
+  const Scene floor_scene(floor_first), tent_scene(tent_first);
+  EXPECT_NE(Viewpoint(floor_scene, Vector(0)).visible_faces().faces[0], FaceVisibility::Hidden);
+  EXPECT_EQ(Viewpoint(tent_scene, Vector(0)).visible_faces().faces[4], FaceVisibility::Hidden);
+}
+
+TEST(VisibleFaces, FacesSeenEdgeOnAreAllThereIs) {
+  Mesh mesh;
+  test_scenes::add_triangle(mesh, {1, 0, 0}, {2, 0, 0}, {1, 1, 0});
+  const Scene scene(mesh);
+  const VisibleFaces answers = Viewpoint(scene, Vector(0)).visible_faces([](double done) { return done >= 0; });
+  EXPECT_EQ(answers.faces, std::vector(1, FaceVisibility::Hidden));
+  EXPECT_EQ(answers.reasons, std::vector(1, HiddenReason::EdgeOn));
+}
+
 TEST(VisibleFaces, StopWhenTold) {
   const Scene scene(generate_scene("bust").mesh);
   const Viewpoint viewpoint(scene, {0, 0, 100});
