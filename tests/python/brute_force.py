@@ -142,8 +142,8 @@ class View:
         t = _hit_parameter(tracked(self.origin), *map(tracked, corners), tracked(target), is_point)
         value, error = np.broadcast_to(t.value, len(faces)), np.broadcast_to(t.error, len(faces))
         order = np.argsort(value)
-        low, high = (value - error)[order], (value + error)[order]
-        with np.errstate(invalid="ignore"):
+        with np.errstate(invalid="ignore"):  # infinite errors: nothing is sure
+            low, high = (value - error)[order], (value + error)[order]
             is_sure = np.all(error <= 2.0**-40 * value) and np.all(high[:-1] < low[1:])
         if is_sure and exact_numbers.use_doubles:
             return [(int(faces[i]), float(value[i])) for i in order]

@@ -141,7 +141,8 @@ def is_proper(error: BaseException, call: Call, arguments: Dict[str, Any]) -> bo
 
 def shown(value: Any) -> str:
     try:
-        return f"{value.dtype!r} {value.shape} {value!r}" if isinstance(value, np.ndarray) else f"{repr(value):.300}"
+        kind = f"{value.dtype!r} {value.shape} " if isinstance(value, np.ndarray) else ""
+        return kind + " ".join(repr(value).split())[:300]
     except Exception:
         return f"a {type(value)}"
 

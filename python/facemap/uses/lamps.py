@@ -51,7 +51,8 @@ def lamp_coverage(scene: Scene, points: Any, lamps: Any, normals: Any = None, *,
     Returns
     -------
     lit : (n, ...) bool
-        Whether lamp i reaches a point. One at the very place of a lamp is lit, and gets an irradiance of infinity.
+        Whether lamp i reaches a point, from in front of its normal if it has one: exact but for the rims of spots and
+        ranges. A point at the very place of a lamp is lit if it has no normal, and gets an irradiance of infinity.
     irradiance : (..., 3) float64
         Linear RGB of all lamps together.
 
@@ -72,8 +73,8 @@ def lamp_coverage(scene: Scene, points: Any, lamps: Any, normals: Any = None, *,
     lit = _reached(scene, lights, flat, dict(faces=own, tolerance=tolerance, threads=threads, progress=progress))
     irradiance = np.zeros((len(flat), 3))
     for i, light in enumerate(lights):
-        share = _share(light, flat.astype(np.float64), surface)
-        lit[i] &= share > 0
+        share, is_reached = _share(light, flat.astype(np.float64), surface)
+        lit[i] &= is_reached
         irradiance += np.where(lit[i], share, 0)[:, np.newaxis] * (np.array(light.color) * light.intensity)
     return Coverage(lit.reshape((len(lights),) + shape), irradiance.reshape(shape + (3,)))
 
@@ -107,15 +108,20 @@ def _reached(scene: Scene, lights: List[Any], points: np.ndarray, options: Any) 
     return lit
 
 
-def _share(light: Any, points: np.ndarray, normals: Optional[np.ndarray]) -> np.ndarray:
-    """What a point gets of a light's intensity if nothing stands between."""
+def _share(light: Any, points: np.ndarray, normals: Optional[np.ndarray]) -> Tuple[np.ndarray, np.ndarray]:
+    """What a point gets of a light's intensity if nothing stands between, and whether it gets anything."""
     if light.kind.name == "directional":
-        to_light, falloff = -_arrays.unit(np.array(light.direction)), np.ones(len(points))
+        to_light, share = -_arrays.unit(np.array(light.direction)), np.ones(len(points))
+        towards, places = -np.array(light.direction, np.float32).astype(np.float64), 0.0
     else:
-        to_light, falloff = _from_a_place(light, points)
+        to_light, share = _from_a_place(light, points)
+        towards, places = np.array(light.position, np.float32).astype(np.float64), points
+    is_reached = share > 0
     if normals is None:
-        return falloff
-    return falloff * np.maximum((normals * to_light).sum(axis=-1), 0)
+        return share, is_reached
+    is_reached &= _arrays.is_in_front(normals, towards, places)
+    cosine = np.maximum((_arrays.unit(normals) * to_light).sum(axis=-1), 0)
+    return np.where(is_reached, share, 0) * cosine, is_reached
 
 
 def _from_a_place(light: Any, points: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:

@@ -95,6 +95,7 @@ def sky_view_factor(scene: Scene, points: Any, normals: Any = None, *, direction
     """
     flat, shape = _arrays.points_of(points)
     surface = _arrays.normals_of(normals, shape)
+    surface = None if surface is None else _arrays.unit(surface)
     own = _arrays.flat_faces(faces, shape, _checks.core_of(scene).face_count)
     is_plain = _checks.choice("weighting", weighting, ("cosine", "plain")) == "plain"
     middle = _arrays.up_of(scene, up)

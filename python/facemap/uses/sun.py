@@ -64,9 +64,9 @@ def sun_hours(scene: Scene, points: Any, sun_directions: Any, hours: Any = None,
     for part in _arrays.blocks(len(suns), len(flat)):
         rows = visibility_along(scene, suns[part], flat, packed=True, faces=own, tolerance=tolerance, threads=threads,
                                 progress=_arrays.part_of(progress, part, len(suns)))
-        for sun, length, row in zip(suns[part], lengths[part], rows):
+        for sun, length, row in zip(suns[part].astype(np.float64), lengths[part], rows):
             shines = _arrays.bools(row, len(flat))
-            total += length * (shines if surface is None else shines & (surface @ sun > 0))
+            total += length * (shines if surface is None else shines & _arrays.is_in_front(surface, sun))
     return total.reshape(shape)
 
 
