@@ -93,8 +93,8 @@ class Viewpoint {
   VisibleFaces visible_faces(const Progress& progress = {}) const;
 
   /// Why visible_faces() calls a face hidden for HiddenReason::Covered: pieces that make up the face, each with what
-  /// covers it. None for faces that are visible, left out or seen edge-on; for one that was left undecided it takes more
-  /// time than visible_faces() does. Throws Error if there is no such face.
+  /// covers it. None for faces that are visible, left out or seen edge-on; for one that was left undecided it takes
+  /// more time than visible_faces() does. Throws Error if there is no such face.
   std::vector<CoveredPiece> covered_pieces(FaceId face) const;
 
   /// For each vertex of the scene 1 if it is visible, as visible() has it, else 0.
