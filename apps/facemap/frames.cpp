@@ -3,6 +3,7 @@
 #include <facemap/error.h>
 #include <facemap/space_vector.h>
 #include <facemap/turntable.h>
+#include <facemap/view_place.h>
 
 #include <algorithm>
 
@@ -73,9 +74,10 @@ std::vector<WantedView> WantedFrames::each() const {
     views[i].lens = lens;
   }
   if (lens.pose) {
-    views[0].camera = lens.pose->position();
-    views[0].look_at = lens.pose->look_at();
-    views[0].up = lens.pose->up();
+    const auto place = ViewPlace::of_opencv(*lens.pose);
+    views[0].camera = place.position;
+    views[0].look_at = place.look_at;
+    views[0].up = place.up;
   }
   return views;
 }

@@ -29,11 +29,11 @@ CameraMatrix parse_matrix(const std::string& text) {
 // R must turn and no more, to what six digits leave of it.
 void check_rotation(const OpenCVPose& pose) {
   constexpr double kLargestError = 1e-5;  // SpaceVector::kOrthonormalTolerance
-  const auto row = [&](int i) { return DVector(pose.rows[i][0], pose.rows[i][1], pose.rows[i][2]); };
+  const auto row = [&](std::size_t i) { return DVector(pose[i][0], pose[i][1], pose[i][2]); };
   const DVector x = row(0), y = row(1), z = row(2);
   double error = 0;
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
       const double product = row(i).x * row(k).x + row(i).y * row(k).y + row(i).z * row(k).z;
       error = std::max(error, std::fabs(product - (i == k ? 1 : 0)));
     }
@@ -49,7 +49,7 @@ OpenCVPose parse_pose(const std::string& text) {
   const std::vector<double> n = parse_numbers(text);
   if (n.size() != 12) throw UsageError("'" + text + "' is not twelve numbers: R and t, row by row");
   OpenCVPose pose;
-  for (int i = 0; i < 12; ++i) pose.rows[i / 4][i % 4] = n[static_cast<std::size_t>(i)];
+  for (std::size_t i = 0; i < 12; ++i) pose[i / 4][i % 4] = n[i];
   check_rotation(pose);
   return pose;
 }
@@ -83,25 +83,6 @@ Lens opencv(const WantedLens& lens, const Make& make) {
 }
 
 }  // namespace
-
-// -R^T t.
-Vector OpenCVPose::position() const {
-  Vector at(0);
-  for (int i = 0; i < 3; ++i) {
-    at[i] = static_cast<float>(-(rows[0][i] * rows[0][3] + rows[1][i] * rows[1][3] + rows[2][i] * rows[2][3]));
-  }
-  return at;
-}
-
-// Far away, so that rounding the point to float32 turns the sight by no more than 2^-23.
-Vector OpenCVPose::look_at() const {
-  const Vector from = position();
-  const float largest = std::max({std::fabs(from.x), std::fabs(from.y), std::fabs(from.z), 1.0f});
-  const double far_away = 64.0 * largest;
-  return Vector(DVector(from) + DVector(rows[2][0], rows[2][1], rows[2][2]) * far_away);
-}
-
-Vector OpenCVPose::up() const { return Vector(DVector(-rows[1][0], -rows[1][1], -rows[1][2])); }
 
 std::vector<Option> lens_options(WantedLens& lens) {
   return {

@@ -3,6 +3,7 @@
 #include <facemap/lens.h>
 #include <facemap/renderer.h>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,14 +15,8 @@ namespace facemap::program {
 
 enum class LensName { Surface, Plane, Orthographic, Equirect, Cube, OpenCV, OpenCVFisheye };
 
-/// A camera's place as OpenCV has it: x_camera = R x_world + t, x to the right, y down, z ahead.
-struct OpenCVPose {
-  double rows[3][4];  ///< R and t, row by row
-
-  Vector position() const;
-  Vector look_at() const;
-  Vector up() const;
-};
+/// R and t, row by row, as ViewPlace::of_opencv has them.
+using OpenCVPose = std::array<std::array<double, 4>, 3>;
 
 /// What a user said about the lens, and of an OpenCV camera's place.
 struct WantedLens {

@@ -21,9 +21,7 @@ struct WantedView {
   bool is_complete() const { return camera && look_at && (!lens.is(LensName::Orthographic) || lens.height); }
 };
 
-/// A whole view of what is in `ball`. A camera alone looks at its centre; a point to look at alone is seen from the
-/// direction that a made-up view has; neither: the whole ball is in sight. Without an up of its own it has the scene's,
-/// or for a sight along that another.
+/// As facemap::complete_view.
 View complete_view(const BoundingBall& ball, const Vector& up, const WantedView& wanted);
 
 /// As flags that give the same values again.

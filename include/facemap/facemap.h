@@ -34,6 +34,7 @@
 #include <facemap/texture.h>
 #include <facemap/turntable.h>
 #include <facemap/vector.h>
+#include <facemap/view_place.h>
 #include <facemap/viewpoint.h>
 #include <facemap/visibility.h>
 #include <facemap/visible_faces.h>

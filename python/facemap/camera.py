@@ -147,7 +147,7 @@ class Camera:
             return
         if self.position is not None or self.look_at is not None or self.up is not None:
             raise ValueError("pose: it takes the place of position, look_at and up; give one or the other")
-        wanted.position, wanted.look_at, wanted.up = _facemap.view_of_pose(_pose(self.pose))
+        wanted.set_pose(_pose(self.pose))
 
     def _set_lens(self, wanted: _facemap.WantedCamera, width: int, height: int) -> None:
         lens = _checks.choice("lens", self.lens, _LENSES)
@@ -157,7 +157,8 @@ class Camera:
             wanted.set_field_angle(math.radians(_field_angle(self.field_angle, 360 if lens == "surface" else 180)))
         elif lens == "orthographic":
             wanted.set_parallel()
-            wanted.height = _checks.optional(_above_0, "height", self.height)
+            if self.height is not None:
+                wanted.set_height(_above_0("height", self.height))
         elif lens == "equirect":
             wanted.set_lens(_facemap.Lens.equirect(width, height))
         elif lens == "cube":

@@ -13,6 +13,7 @@ void translate_errors();
 void bind_lights(py::module_& module);
 void bind_scenes(py::module_& module);
 void bind_generated(py::module_& module);
+void bind_cameras(py::module_& module);
 void bind_pictures(py::module_& module);
 void bind_image_files(py::module_& module);
 void bind_views(py::module_& module);

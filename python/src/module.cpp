@@ -8,6 +8,7 @@ PYBIND11_MODULE(_facemap, module) {
   bind_lights(module);
   bind_scenes(module);
   bind_generated(module);
+  bind_cameras(module);
   bind_pictures(module);
   bind_image_files(module);
   bind_views(module);
