@@ -21,11 +21,10 @@ constexpr std::size_t kAhead = 2;
 constexpr double kSortWork = 10, kCandidateWork = 5, kPackWork = 20, kBoxWork = 4, kBundleWork = 40, kOpenWork = 100;
 
 constexpr int kFewestTexels = 4, kMostTexels = 256;
-constexpr std::size_t kPointsPerTexel = 1;
 
 int texels_for(std::size_t count) {
   int texels = kFewestTexels;
-  while (texels < kMostTexels && kPointsPerTexel * kHubSides * static_cast<std::size_t>(texels * texels) < 4 * count) {
+  while (texels < kMostTexels && kHubSides * static_cast<std::size_t>(texels * texels) < count) {
     texels *= 2;
   }
   return texels;
@@ -62,7 +61,7 @@ void HubPass::run(const Scene& scene, const FacePacks& packs, const Vector& hub,
       last = pack;
       ask(static_cast<std::uint32_t>(pack), found, blockers);
     }
-    if (2 * (blockers.size() - blocked) <= count_) continue;
+    if (4 * (blockers.size() - blocked) <= 3 * count_) continue;
     resolve(scene, packs, ends, blockers);
     blocked = blockers.size();
     drop_blocked();
