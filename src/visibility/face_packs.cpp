@@ -8,6 +8,7 @@
 
 #include "map/face_planes.h"
 #include "math/exact_sign.h"
+#include "math/power_of_two.h"
 
 namespace facemap {
 namespace {
@@ -37,14 +38,6 @@ struct Centre {
   std::uint32_t face;
   Vector at;  // three times the middle, less what is the same for all
 };
-
-// The power of two that brings an extent to within [1, 2).
-double scale_for(double extent) {
-  if (!(extent > 0)) return 1;
-  int exponent;
-  std::frexp(extent, &exponent);
-  return std::ldexp(1.0, 1 - exponent);
-}
 
 // How many go left: a whole number of bundles as near to half as may be, or of packs within a bundle.
 std::size_t left_part(std::size_t count) {
@@ -101,7 +94,7 @@ FacePacks::FacePacks(const Scene& scene, const Vector& lower, const Vector& uppe
     const double high = std::max(double{upper[k]}, double{scene.upper()[k]});
     extent = std::max(extent, high - low);
   }
-  scale_ = scale_for(extent);
+  scale_ = inverse_power_of_two(extent);
   places_.assign(scene.face_count(), kNoPlace);
   if (kept.empty()) return;
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "math/power_of_two.h"
 #include "simd/step_points.h"
 
 namespace facemap {
@@ -24,11 +25,7 @@ constexpr double kMostSteps = 0x1p30;
 constexpr double kRoundingError = 0.8662;  // steps
 
 // A power of two, above 0, of which `reach` is at most 2^30.
-double step_for(double reach) {
-  int exponent = -1000;
-  if (reach > 0) std::frexp(reach / kMostSteps, &exponent);
-  return std::ldexp(1.0, std::max(exponent, -1000));
-}
+double step_for(double reach) { return reach > 0 ? 2 / inverse_power_of_two(reach / kMostSteps) : 0x1p-1000; }
 
 const float* floats_of(std::span<const Vector> points) { return &points[0].x; }
 
