@@ -83,7 +83,9 @@ void FaceTree::Boxes::set(std::size_t k, const Box& box) {
 [[gnu::noinline]] std::uint32_t FaceTree::Boxes::met_by(float u, float v, float far) const {
   std::array<std::uint32_t, kTogether> is_met;
   for (std::size_t k = 0; k < kTogether; ++k) {
-    is_met[k] = (u0[k] <= u) & (u <= u1[k]) & (v0[k] <= v) & (v <= v1[k]) & (near[k] <= far);
+    const std::uint32_t across = std::uint32_t{u0[k] <= u} & std::uint32_t{u <= u1[k]};
+    const std::uint32_t down = std::uint32_t{v0[k] <= v} & std::uint32_t{v <= v1[k]};
+    is_met[k] = across & down & std::uint32_t{near[k] <= far};
   }
   std::uint32_t bits = 0;
   for (std::size_t k = 0; k < kTogether; ++k) bits |= is_met[k] << k;
