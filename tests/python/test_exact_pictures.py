@@ -118,7 +118,7 @@ def test_corners_between_light_and_pixel(random):
         vertices = np.concatenate([wall * np.float32(9), corners])
         counts += compare(random, vertices, np.arange(27).reshape(-1, 3), camera, list(-4 * rays[:6]), [])
     print("{} pixels, {} with a face, {} times lit, {} times dark, 0 differences".format(*counts))
-    assert min(counts[2:]) > 100
+    assert min(counts[2:]) > 20
 
 
 def test_a_view_and_a_picture_agree():
