@@ -114,7 +114,8 @@ class Match {
   }
 
   Way calibrate() {
-    const std::size_t step = std::max<std::size_t>(1, theirs_.size() / kTrial);
+    const std::size_t step =
+        std::clamp<std::size_t>(theirs_.size() / kTrial, 1, std::min(origins_.size(), points_.size()));
     const Ordered origins[] = {{origins_, false}, {origins_, true}}, points[] = {{points_, false}, {points_, true}};
     Way best;
     double least = std::numeric_limits<double>::infinity();
