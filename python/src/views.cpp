@@ -3,6 +3,7 @@
 #include <facemap/visible_faces.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -121,6 +122,9 @@ using AskMany = void (*)(const Scene& scene, std::span<const Vector> from, const
                          std::span<std::uint8_t> bits, const VisibilityOptions& options,
                          const Viewpoint::Progress& progress);
 
+constexpr std::size_t kRowsAtOnce =
+    4096;  ///< few enough to be interrupted, and enough to pay for what is made for them
+
 /// Rows of bits, one an origin or a direction.
 py::array_t<std::uint8_t> bits_of(AskMany ask_many, const Scene& scene, const Rows<float>& from,
                                   const Rows<float>& points, const Faces& faces, float tolerance,
@@ -132,8 +136,18 @@ py::array_t<std::uint8_t> bits_of(AskMany ask_many, const Scene& scene, const Ro
   const std::span<std::uint8_t> bits = elements_of(rows);
   call_interruptibly(
       [&](const Report& report) {
-        ask_many(scene, from_rows, targets, bits, options,
-                 [&report](double fraction) { return report(fraction, "asking"); });
+        const auto bytes = static_cast<std::size_t>(row);
+        const std::size_t all = from_rows.size();
+        for (std::size_t first = 0; first == 0 || first < all; first += kRowsAtOnce) {
+          const std::size_t count = std::min(kRowsAtOnce, all - first);
+          const auto tell = [&](double fraction) {
+            const double done = static_cast<double>(first) + fraction * static_cast<double>(count);
+            return report(all == 0 ? 1 : done / static_cast<double>(all), "asking");
+          };
+          if (!tell(0)) return;
+          ask_many(scene, from_rows.subspan(first, count), targets, bits.subspan(first * bytes, count * bytes), options,
+                   tell);
+        }
       },
       progress);
   return rows;

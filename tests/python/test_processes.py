@@ -58,7 +58,7 @@ def _exit_code(child):
 
 
 LONG_CALLS = {
-    "visibility": "facemap.visibility(scene, np.random.default_rng(1).uniform(-3, 3, (10**6, 3)), scene.vertices)",
+    "visibility": "facemap.visibility(scene, np.random.default_rng(1).uniform(-3, 3, (10**5, 3)), scene.vertices)",
     "render": "scene.render(width=8192, height=8192, samples=8, planes=[])",
 }
 
