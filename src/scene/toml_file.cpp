@@ -222,10 +222,13 @@ void TomlFile::add_setting(std::vector<SceneSetting>& settings, const toml::key&
   const toml::source_position at = key.source().begin;
   if (settings.size() == kMostSettings)
     fail(key, Cause::Unsupported, "more than " + std::to_string(kMostSettings) + " settings");
-  for (const SceneSetting& setting : settings) {
-    if (setting.name == name) fail(key, Cause::BadValue, "\"" + name + "\" is given more than once");
+  // The table's order is that of keys as they are spelt, with _ or -.
+  const auto place = std::lower_bound(settings.begin(), settings.end(), name,
+                                      [](const SceneSetting& setting, const auto& of) { return setting.name < of; });
+  if (place != settings.end() && place->name == name) {
+    fail(key, Cause::BadValue, "\"" + name + "\" is given more than once");
   }
-  settings.push_back({name, texts(node), at.line, at.column});
+  settings.insert(place, {name, texts(node), at.line, at.column});
 }
 
 std::string setting_name(const toml::key& key) {

@@ -79,7 +79,7 @@ class TomlFile {
   /// One of `choices`: its index.
   std::size_t choice(const toml::node& node, const std::vector<std::string>& choices) const;
 
-  /// Adds any value, as text; refuses a name that is there.
+  /// Adds any value, as text, in the order of names; refuses a name that is there.
   void add_setting(std::vector<SceneSetting>& settings, const toml::key& key, const toml::node& node) const;
 
  private:

@@ -206,6 +206,11 @@ TEST_F(SceneFileTest, WhatIsWrittenReadsBackAsTheSame) {
   EXPECT_EQ(scene_file_text(read, folder_), scene_file_text(scene, folder_));
 }
 
+TEST_F(SceneFileTest, SettingsAreInTheSameOrderHoweverTheyAreSpelt) {
+  const std::string text = scene_file_text(parse(kModel + "[settings]\nab-c = 1\nab_ = 2\nab-d = 3\n"), folder_);
+  EXPECT_EQ(scene_file_text(parse(text), folder_), text);
+}
+
 TEST_F(SceneFileTest, LoadsModelsEachAtItsPlace) {
   const SceneFile scene = parse(kModel + "[[model]]\npath = \"parts/b.obj\"\nup = \"z\"\ntranslate = [0, 1, 0]\n");
   const Model model = load_models(scene.models, {0, 1, 0});
