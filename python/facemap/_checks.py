@@ -136,6 +136,10 @@ def path(name: str, value: Any) -> str:
         raise TypeError(f"{name}: a path is needed, not {_shown(value)}") from error
     if "\0" in found:
         raise ValueError(f"{name}: a path has no NUL in it")
+    try:
+        os.fsencode(found)
+    except UnicodeEncodeError as error:
+        raise ValueError(f"{name}: the file system has no such name: {error.reason}") from error
     return found
 
 
