@@ -12,8 +12,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <map>
+#include <memory>
 #include <mutex>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #if defined(__linux__)
 #include <pthread.h>
@@ -57,6 +61,34 @@ void allow_threads(int threads) {
   allowed = threads;
 }
 
+/// Arenas that nobody uses, for the next who wants so many threads: Debian's oneTBB (2021.8) keeps some kilobytes of
+/// each arena that has ended, so that a process that makes many would grow.
+class SpareArenas {
+ public:
+  static SpareArenas& all() {
+    static SpareArenas& arenas = *new SpareArenas;  // for ever: executors may outlive static objects
+    return arenas;
+  }
+
+  std::unique_ptr<tbb::task_arena> take(int threads) {
+    const std::lock_guard lock(mutex_);
+    auto& spare = of_threads_[threads];
+    if (spare.empty()) return std::make_unique<tbb::task_arena>(threads);
+    std::unique_ptr<tbb::task_arena> arena = std::move(spare.back());
+    spare.pop_back();
+    return arena;
+  }
+
+  void give_back(int threads, std::unique_ptr<tbb::task_arena> arena) {
+    const std::lock_guard lock(mutex_);
+    of_threads_[threads].push_back(std::move(arena));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<int, std::vector<std::unique_ptr<tbb::task_arena>>> of_threads_;
+};
+
 #endif
 
 }  // namespace
@@ -65,12 +97,15 @@ void allow_threads(int threads) {
 
 class Executor::Pool {
  public:
-  explicit Pool(int threads) : arena_(threads) { allow_threads(threads); }
+  explicit Pool(int threads) : threads_(threads), arena_(SpareArenas::all().take(threads)) { allow_threads(threads); }
+  ~Pool() { SpareArenas::all().give_back(threads_, std::move(arena_)); }
+  Pool(const Pool&) = delete;
+  Pool& operator=(const Pool&) = delete;
 
   void for_each(std::size_t count, const Task& task) {
     // Isolated, so that a task that waits for its own call does not begin another task of the outer one, whose worker
     // would be the same.
-    arena_.execute([&] { tbb::this_task_arena::isolate([&] { run(count, task); }); });
+    arena_->execute([&] { tbb::this_task_arena::isolate([&] { run(count, task); }); });
   }
 
  private:
@@ -86,7 +121,8 @@ class Executor::Pool {
         tbb::simple_partitioner());
   }
 
-  tbb::task_arena arena_;
+  int threads_;
+  std::unique_ptr<tbb::task_arena> arena_;
 };
 
 #else
