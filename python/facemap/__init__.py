@@ -8,7 +8,7 @@
 
 from ._facemap import __version__
 from .camera import Camera, Rays
-from .errors import Error, LoadError
+from .errors import Error, LoadError, OpenError
 from .frame import Frame, save_png
 from .generated import generate
 from .light import Light
@@ -33,6 +33,7 @@ __all__ = [
     "Light",
     "LoadError",
     "Nearest",
+    "OpenError",
     "Rays",
     "Scan",
     "Scene",

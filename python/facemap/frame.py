@@ -261,6 +261,12 @@ class Frame:
         if name not in self._planes:
             raise ValueError(f"{name}: this frame has none; render(planes=[..., {name!r}]) makes it")
 
+    def __getstate__(self) -> Tuple[_facemap.Image, Tuple[str, ...], Dict[str, Any], List[str]]:
+        return self._image, self._planes, self._statistics, self._warnings
+
+    def __setstate__(self, state: Tuple[_facemap.Image, Tuple[str, ...], Dict[str, Any], List[str]]) -> None:
+        Frame.__init__(self, *state)
+
     def __repr__(self) -> str:
         return f"<facemap.Frame: {self.width}x{self.height}, {', '.join(('color',) + self._planes)}>"
 

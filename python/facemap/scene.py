@@ -323,7 +323,7 @@ def load(path: Union[str, os.PathLike], *, max_bytes: int = 1 << 34, max_faces: 
     Raises
     ------
     LoadError
-        With file, line, column and reason.
+        With file, line, column and reason; its subclass OpenError, an OSError too, for a file that cannot be opened.
 
     Examples
     --------

@@ -73,20 +73,24 @@ void bind_cameras(py::module_& module) {
       .value("6x1", CubeLayout::Row6x1)
       .value("1x6", CubeLayout::Column1x6);
   py::class_<Lens>(module, "Lens")
-      .def_static("equirect", &Lens::equirectangular)
-      .def_static("cube", &Lens::cube_map)
-      .def_static("surface", &Lens::surface)
-      .def_static("plane", &Lens::plane)
-      .def_static("opencv",
-                  [](const std::array<double, 4>& k, const std::vector<double>& distortion, int width, int height) {
-                    return Lens::opencv_pinhole({k[0], k[1], k[2], k[3]}, PinholeDistortion::from_opencv(distortion),
-                                                width, height);
-                  })
-      .def_static("opencv_fisheye",
-                  [](const std::array<double, 4>& k, const std::vector<double>& distortion, int width, int height) {
-                    return Lens::opencv_fisheye({k[0], k[1], k[2], k[3]}, FisheyeDistortion::from_opencv(distortion),
-                                                width, height);
-                  });
+      .def_static("equirect", &Lens::equirectangular, py::arg("width"), py::arg("height"))
+      .def_static("cube", &Lens::cube_map, py::arg("layout"), py::arg("face_size"))
+      .def_static("surface", &Lens::surface, py::arg("field_angle"), py::arg("width"), py::arg("height"))
+      .def_static("plane", &Lens::plane, py::arg("field_angle"), py::arg("width"), py::arg("height"))
+      .def_static(
+          "opencv",
+          [](const std::array<double, 4>& k, const std::vector<double>& distortion, int width, int height) {
+            return Lens::opencv_pinhole({k[0], k[1], k[2], k[3]}, PinholeDistortion::from_opencv(distortion), width,
+                                        height);
+          },
+          py::arg("matrix"), py::arg("distortion"), py::arg("width"), py::arg("height"))
+      .def_static(
+          "opencv_fisheye",
+          [](const std::array<double, 4>& k, const std::vector<double>& distortion, int width, int height) {
+            return Lens::opencv_fisheye({k[0], k[1], k[2], k[3]}, FisheyeDistortion::from_opencv(distortion), width,
+                                        height);
+          },
+          py::arg("matrix"), py::arg("distortion"), py::arg("width"), py::arg("height"));
   const auto position = optional_vector(&ViewPlace::position);
   const auto look_at = optional_vector(&ViewPlace::look_at);
   const auto up = optional_vector(&ViewPlace::up);
@@ -95,17 +99,22 @@ void bind_cameras(py::module_& module) {
       .def_property("position", position.first, position.second)
       .def_property("look_at", look_at.first, look_at.second)
       .def_property("up", up.first, up.second)
-      .def("set_pose", [](WantedCamera& c, const Pose& pose) { c.place = ViewPlace::of_opencv(pose); })
-      .def("set_height", [](WantedCamera& c, double height) { c.place.height = height; })
-      .def("set_projection", [](WantedCamera& c, ProjectionKind kind) { c.lens.projection = kind; })
-      .def("set_field_angle", [](WantedCamera& c, double radians) { c.lens.field_angle = radians; })
+      .def(
+          "set_pose", [](WantedCamera& c, const Pose& pose) { c.place = ViewPlace::of_opencv(pose); }, py::arg("pose"))
+      .def(
+          "set_height", [](WantedCamera& c, double height) { c.place.height = height; }, py::arg("height"))
+      .def(
+          "set_projection", [](WantedCamera& c, ProjectionKind kind) { c.lens.projection = kind; }, py::arg("kind"))
+      .def(
+          "set_field_angle", [](WantedCamera& c, double radians) { c.lens.field_angle = radians; }, py::arg("radians"))
       .def("set_parallel", [](WantedCamera& c) { c.lens.is_parallel = true; })
-      .def("set_lens", [](WantedCamera& c, const Lens& lens) { c.lens.lens = lens; });
+      .def(
+          "set_lens", [](WantedCamera& c, const Lens& lens) { c.lens.lens = lens; }, py::arg("lens"));
   py::class_<View>(module, "CompleteCamera")
       .def_property_readonly("position", [](const View& v) { return triple_of(v.position); })
       .def_property_readonly("look_at", [](const View& v) { return triple_of(v.look_at); })
       .def_property_readonly("up", [](const View& v) { return triple_of(v.up); })
-      .def("directions", &directions)
+      .def("directions", &directions, py::arg("width"), py::arg("height"))
       .def_readonly("height", &View::height);
   module.def("complete_view", &complete, py::arg("scene"), py::arg("camera"), py::arg("up"));
 }

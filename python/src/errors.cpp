@@ -8,7 +8,7 @@ namespace {
 py::object class_named(const char* name) { return py::module_::import("facemap.errors").attr(name); }
 
 void raise(const LoadError& error) {
-  const py::object type = class_named("LoadError");
+  const py::object type = class_named(error.cause() == LoadError::Cause::CannotOpen ? "OpenError" : "LoadError");
   const py::object raised = type(error.what(), error.file(), error.line(), error.column(), error.reason());
   PyErr_SetObject(type.ptr(), raised.ptr());
 }

@@ -9,6 +9,8 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "calls.h"
+#include "image_state.h"
+#include "pickling.h"
 
 namespace facemap::python {
 namespace {
@@ -135,39 +137,55 @@ void bind_image_files(py::module_& module) {
       .def_readwrite("curve", &DisplayTransform::curve)
       .def_readwrite("transfer", &DisplayTransform::transfer);
 
-  py::class_<Image, SharedImage>(module, "Image")
-      .def_static("from_light", &image_from_light, py::arg("light").noconvert())
+  py::class_<Image, SharedImage> bound(module, "Image");
+  bound.def_static("from_light", &image_from_light, py::arg("light").noconvert())
       .def_static("from_levels", &image_from_levels, py::arg("levels").noconvert())
       .def_readonly("width", &Image::width)
       .def_readonly("height", &Image::height)
       .def_readonly("light_count", &Image::light_count)
       .def_property_readonly("color", [](const py::object& self) { return color(self); })
       .def_property_readonly("light_bits", [](const py::object& self) { return light_bits(self); })
-      .def("plane", [](const py::object& self, const std::string& name) { return plane(self, name); })
-      .def("plane_picture",
-           [](const Image& i, const std::string& name) {
-             return std::make_shared<Image>(plane_picture(i, plane_of(name)));
-           })
-      .def("levels", &levels)
-      .def("png", [](const Image& i, const DisplayTransform& d,
-                     int threads) { return encoded([&] { return encode_png(i, threads, d); }); })
-      .def("png_16", &png_16)
-      .def("jpeg", &jpeg)
-      .def("exr", &exr)
-      .def("plane_exr", &plane_exr)
+      .def(
+          "plane", [](const py::object& self, const std::string& name) { return plane(self, name); }, py::arg("name"))
+      .def(
+          "plane_picture",
+          [](const Image& i, const std::string& name) {
+            return std::make_shared<Image>(plane_picture(i, plane_of(name)));
+          },
+          py::arg("name"))
+      .def("levels", &levels, py::arg("display"))
+      .def(
+          "png",
+          [](const Image& i, const DisplayTransform& d, int threads) {
+            return encoded([&] { return encode_png(i, threads, d); });
+          },
+          py::arg("display"), py::arg("threads"))
+      .def("png_16", &png_16, py::arg("display"), py::arg("threads"))
+      .def("jpeg", &jpeg, py::arg("display"), py::arg("quality"), py::arg("threads"))
+      .def("exr", &exr, py::arg("is_half"), py::arg("planes"), py::arg("threads"))
+      .def("plane_exr", &plane_exr, py::arg("name"), py::arg("threads"))
       .def("pfm", [](const Image& i) { return encoded([&] { return encode_pfm(color_plane(i)); }); })
-      .def("plane_pfm",
-           [](const Image& i, const std::string& name) {
-             return encoded([&] { return encode_pfm(plane_view(i, plane_of(name))); });
-           })
+      .def(
+          "plane_pfm",
+          [](const Image& i, const std::string& name) {
+            return encoded([&] { return encode_pfm(plane_view(i, plane_of(name))); });
+          },
+          py::arg("name"))
       .def("npy", [](const Image& i) { return encoded([&] { return encode_npy(color_plane(i)); }); })
-      .def("plane_npy", [](const Image& i, const std::string& name) {
-        return encoded([&] { return encode_npy(plane_view(i, plane_of(name))); });
-      });
-  module.def("write_file", [](const std::filesystem::path& path, const py::bytes& bytes) {
-    const std::string_view text = bytes;
-    call([&] { write_file(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}); });
-  });
+      .def(
+          "plane_npy",
+          [](const Image& i, const std::string& name) {
+            return encoded([&] { return encode_npy(plane_view(i, plane_of(name))); });
+          },
+          py::arg("name"));
+  add_pickling<Image>(bound, &state_of, &image_from);
+  module.def(
+      "write_file",
+      [](const std::filesystem::path& path, const py::bytes& bytes) {
+        const std::string_view text = bytes;
+        call([&] { write_file(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}); });
+      },
+      py::arg("path"), py::arg("bytes"));
 }
 
 }  // namespace facemap::python

@@ -46,9 +46,9 @@ void bind_lights(py::module_& module) {
       .def_readonly("is_parallel", &ModelCamera::is_parallel)
       .def_readonly("field_angle", &ModelCamera::field_angle)
       .def_readonly("height", &ModelCamera::height);
-  add_vector(camera, "position", &ModelCamera::position);
-  add_vector(camera, "look_at", &ModelCamera::look_at);
-  add_vector(camera, "up", &ModelCamera::up);
+  camera.def_property_readonly("position", [](const ModelCamera& c) { return triple_of(c.position); })
+      .def_property_readonly("look_at", [](const ModelCamera& c) { return triple_of(c.look_at); })
+      .def_property_readonly("up", [](const ModelCamera& c) { return triple_of(c.up); });
 }
 
 }  // namespace facemap::python

@@ -90,21 +90,32 @@ void bind_options(py::module_& module) {
       .def_readwrite("light_maps", &Options::light_maps)
       .def_readwrite("threads", &Options::threads)
       .def_readwrite("map_memory", &Options::map_memory)
-      .def("set_edges", [](Options& o, bool at_edges) { o.sampling = sampling_of(at_edges); })
-      .def("set_background", [](Options& o, const Triple& c) { o.background = color_of(c); })
-      .def("set_ambient", [](Options& o, const Triple& c) { o.ambient = color_of(c); })
-      .def("set_sky_up", [](Options& o, const Triple& c) { o.sky_up = color_of(c); })
-      .def("set_sky_down", [](Options& o, const Triple& c) { o.sky_down = color_of(c); })
-      .def("set_up", [](Options& o, const Triple& v) { o.up = vector_of(v); })
-      .def("set_crop",
-           [](Options& o, const std::array<int, 4>& c) {
-             o.crop = PixelBox{c[0], c[1], c[2], c[3]};
-           })
-      .def("add_plane", [](Options& o, const std::string& name) {
-        const std::optional<Plane> plane = plane_named(name);
-        if (!plane) throw py::value_error("there is no plane " + name);
-        o.planes.add(*plane);
-      });
+      .def(
+          "set_edges", [](Options& o, bool at_edges) { o.sampling = sampling_of(at_edges); }, py::arg("at_edges"))
+      .def(
+          "set_background", [](Options& o, const Triple& c) { o.background = color_of(c); }, py::arg("color"))
+      .def(
+          "set_ambient", [](Options& o, const Triple& c) { o.ambient = color_of(c); }, py::arg("color"))
+      .def(
+          "set_sky_up", [](Options& o, const Triple& c) { o.sky_up = color_of(c); }, py::arg("color"))
+      .def(
+          "set_sky_down", [](Options& o, const Triple& c) { o.sky_down = color_of(c); }, py::arg("color"))
+      .def(
+          "set_up", [](Options& o, const Triple& v) { o.up = vector_of(v); }, py::arg("up"))
+      .def(
+          "set_crop",
+          [](Options& o, const std::array<int, 4>& c) {
+            o.crop = PixelBox{c[0], c[1], c[2], c[3]};
+          },
+          py::arg("box"))
+      .def(
+          "add_plane",
+          [](Options& o, const std::string& name) {
+            const std::optional<Plane> plane = plane_named(name);
+            if (!plane) throw py::value_error("there is no plane " + name);
+            o.planes.add(*plane);
+          },
+          py::arg("name"));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "bindings.h"
 #include "calls.h"
 #include "material_state.h"
+#include "pickling.h"
 
 namespace facemap::python {
 namespace {
@@ -101,21 +102,6 @@ SharedScene joined(const std::vector<SharedScene>& parts, int threads) {
   return scene;
 }
 
-template <typename Row>
-py::bytes bytes_of(const std::vector<Row>& rows) {
-  static_assert(std::is_trivially_copyable_v<Row>);
-  return {reinterpret_cast<const char*>(rows.data()), rows.size() * sizeof(Row)};
-}
-
-template <typename Row>
-std::vector<Row> rows_from(const py::handle& bytes) {
-  const auto text = bytes.cast<std::string_view>();
-  if (text.size() % sizeof(Row) != 0) throw py::value_error("a scene's state has lost bytes");
-  std::vector<Row> rows(text.size() / sizeof(Row));
-  std::copy(text.begin(), text.end(), reinterpret_cast<char*>(rows.data()));
-  return rows;
-}
-
 /// For pickle: the arrays as bytes, so that numbers come back as they are.
 py::tuple state_of(const Scene& scene) {
   const Model model = model_of(scene);
@@ -168,8 +154,8 @@ py::dict odd_faces(const Scene& scene) {
 }  // namespace
 
 void bind_scenes(py::module_& module) {
-  py::class_<Scene, SharedScene>(module, "Scene")
-      .def_property_readonly("vertices", [](const py::object& self) { return vertices(self); })
+  py::class_<Scene, SharedScene> scene(module, "Scene");
+  scene.def_property_readonly("vertices", [](const py::object& self) { return vertices(self); })
       .def_property_readonly("faces", [](const py::object& self) { return faces(self); })
       .def_property_readonly("kept_faces",
                              [](const py::object& self) {
@@ -190,12 +176,11 @@ void bind_scenes(py::module_& module) {
       .def_property_readonly("lights", &Scene::lights)
       .def_property_readonly("cameras", &Scene::cameras)
       .def_property_readonly("warnings", [](const Scene& self) { return self.report().warnings; })
-      .def_property_readonly("up",
-                             [](const Scene& self) -> std::optional<Triple> {
-                               if (!self.up()) return std::nullopt;
-                               return triple_of(*self.up());
-                             })
-      .def(py::pickle(&state_of, &scene_from));
+      .def_property_readonly("up", [](const Scene& self) -> std::optional<Triple> {
+        if (!self.up()) return std::nullopt;
+        return triple_of(*self.up());
+      });
+  add_pickling<Scene>(scene, &state_of, &scene_from);
 
   module.def("load", &load, py::arg("path"), py::arg("max_bytes"), py::arg("max_faces"), py::arg("allow_outside"),
              py::arg("threads"));

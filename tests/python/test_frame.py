@@ -1,6 +1,8 @@
 """Pictures: the program's bytes, and the arrays behind them."""
 
+import copy
 import math
+import pickle
 import re
 import shlex
 
@@ -124,6 +126,19 @@ def test_arrays_are_shared_and_outlive_the_frame(bust):
     assert np.array_equal(color, kept)
     with pytest.raises(ValueError):
         color[0, 0] = 1
+
+
+@pytest.mark.parametrize("again", [copy.copy, copy.deepcopy] + [
+    lambda frame, i=i: pickle.loads(pickle.dumps(frame, i)) for i in range(pickle.HIGHEST_PROTOCOL + 1)])
+def test_every_way_to_copy_a_frame_gives_the_same(bust, again):
+    frame = bust.render(width=20, height=10, planes="all")
+    copied = again(frame)
+    assert copied.png() == frame.png() and copied.planes == frame.planes
+    assert copied.statistics == frame.statistics and copied.warnings == frame.warnings
+    for name in ("color", "image", *frame.planes):
+        one, other = getattr(copied, name), getattr(frame, name)
+        assert np.array_equal(one, other, equal_nan=one.dtype.kind == "f") and one.dtype == other.dtype, name
+    assert again(facemap.Frame.from_array(np.ones((2, 3), np.float32))).color.shape == (2, 3, 3)
 
 
 def test_planes_that_were_not_asked_for_say_so(floor):

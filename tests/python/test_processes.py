@@ -45,6 +45,16 @@ def test_a_view_of_before_the_fork_works_after_it(bust):
     assert count_visible(view) == expected
 
 
+def picture_of(scene):
+    return scene.render(width=32, height=32)
+
+
+def test_a_worker_gives_its_picture_back(bust):
+    with multiprocessing.get_context("spawn").Pool(1) as pool:
+        frame = pool.apply_async(picture_of, (bust,)).get(60)
+    assert frame.png() == picture_of(bust).png() and frame.depth.shape == (32, 32)
+
+
 def _exit_code(child):
     end = time.monotonic() + 60
     while time.monotonic() < end:

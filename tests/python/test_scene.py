@@ -1,5 +1,7 @@
 """Scenes from arrays and files."""
 
+import copy
+import errno
 import pickle
 from types import SimpleNamespace
 
@@ -61,9 +63,36 @@ def test_mirrored_parts_keep_their_fronts(floor):
     assert np.cross(b - a, c - a)[2] > 0
 
 
+def assert_same_meshes(one, other):
+    assert np.array_equal(one.vertices, other.vertices) and np.array_equal(one.faces, other.faces)
+
+
+WAYS = [copy.copy, copy.deepcopy]
+WAYS += [lambda thing, i=i: pickle.loads(pickle.dumps(thing, i)) for i in range(pickle.HIGHEST_PROTOCOL + 1)]
+
+
+@pytest.mark.parametrize("again", WAYS)
+def test_every_way_to_copy_a_scene_or_a_view_gives_the_same(floor, again):
+    floor.lights = [facemap.Light((0, 2, 0))]
+    copied, view = again(floor), again(facemap.View(floor, (0, 1, 0)))
+    assert_same_meshes(copied, floor)
+    assert copied.lights == floor.lights
+    assert view.nearest([[0, -1, 0]]).distance.tolist() == [1]
+    copied.add(floor)
+    assert (copied.face_count, floor.face_count) == (4, 2)
+
+
+def test_a_state_that_has_lost_bytes_is_refused(floor):
+    again, (state,) = floor.render(width=4, height=4)._image.__reduce__()
+    with pytest.raises(ValueError, match="bytes"):
+        again((5, *state[1:]))
+    with pytest.raises(ValueError, match="state"):
+        again((*state[:3], state[3][:-1]))
+
+
 def test_a_pickled_scene_is_the_same(bust):
     again = pickle.loads(pickle.dumps(bust))
-    assert np.array_equal(again.vertices, bust.vertices) and np.array_equal(again.faces, bust.faces)
+    assert_same_meshes(again, bust)
     assert again.cameras == bust.cameras and again.lights == bust.lights
     size = {"width": 48, "height": 48, "planes": "all"}
     one, other = bust.render(**size), again.render(**size)
@@ -90,6 +119,19 @@ def test_a_broken_file_is_named_with_its_line(tmp_path):
     assert isinstance(caught.value, ValueError) and isinstance(caught.value, facemap.Error)
     again = pickle.loads(pickle.dumps(caught.value))
     assert str(again) == str(caught.value) and again.line == 2
+
+
+def test_a_file_that_cannot_be_opened_is_an_os_error_too(tmp_path):
+    with pytest.raises(OSError) as caught:
+        facemap.load(tmp_path / "none.obj")
+    assert isinstance(caught.value, facemap.OpenError) and isinstance(caught.value, facemap.LoadError)
+    for error in caught.value, pickle.loads(pickle.dumps(caught.value)):
+        assert error.filename == error.file == str(tmp_path / "none.obj") and error.errno == errno.ENOENT
+        assert str(error) == f"{error.file}: {error.strerror}" and error.line == 0
+    (tmp_path / "broken.obj").write_text("v 1 x 0\n")
+    with pytest.raises(facemap.LoadError) as caught:
+        facemap.load(tmp_path / "broken.obj")
+    assert not isinstance(caught.value, OSError)
 
 
 @pytest.mark.parametrize("vertices, faces, error, name", [
