@@ -8,6 +8,7 @@ CMake's own settings are taken from the environment variable CMAKE_ARGS.
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -29,6 +30,7 @@ class BuildWithCMake(build_ext):
 
     def run(self) -> None:
         target = Path(self.build_lib).resolve()
+        shutil.rmtree(target / "facemap", ignore_errors=True)  # files of an earlier wheel that are no more
         configure = ["cmake", "-S", SOURCE, "-B", BUILD, "-DCMAKE_BUILD_TYPE=Release", "-DFACEMAP_BUILD_PYTHON=ON",
                      "-DFACEMAP_BUILD_TESTS=OFF", "-DFACEMAP_BUILD_APPS=OFF", "-DBUILD_SHARED_LIBS=OFF",
                      f"-DPython3_EXECUTABLE={sys.executable}", "-DFACEMAP_PYTHON_DIR=."]
@@ -50,6 +52,11 @@ class WithModule(Distribution):
     def has_ext_modules(self) -> bool:
         return True
 
+
+# CMake puts the package together from two folders: there is none that could be used where it lies.
+if {"develop", "editable_wheel"} & set(sys.argv):
+    sys.exit("facemap cannot be installed editable: install it with `pip install .`, or build it with CMake and set "
+             "PYTHONPATH=build/release/python")
 
 EGG_BASE = SOURCE / "build" / "egg"
 EGG_BASE.mkdir(parents=True, exist_ok=True)

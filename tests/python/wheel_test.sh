@@ -9,6 +9,9 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 # As strict as the other builds: what the compiler's cache has of them is used.
 cd "$source"
+for stale in build/wheel/python-build/lib*/facemap; do
+  [ ! -d "$stale" ] || touch "$stale/no_more.py"
+done
 CMAKE_ARGS=-DFACEMAP_WERROR=ON "$python" -m pip wheel . --no-build-isolation --no-deps --no-index --quiet \
   --wheel-dir "$folder"
 
@@ -25,4 +28,5 @@ folder = pathlib.Path(facemap.__file__).parent
 assert "venv" in folder.parts, folder
 for name in ("py.typed", "_facemap.pyi"):
     assert (folder / name).exists(), name
+assert not (folder / "no_more.py").exists()
 END
