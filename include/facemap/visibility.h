@@ -11,7 +11,8 @@ namespace facemap {
 
 struct VisibilityOptions {
   int threads = 0;         ///< 0: as many as the process may run at once
-  std::size_t memory = 0;  ///< bytes that working memory may take, as far as possible; 0: no limit
+  std::size_t memory = 0;  ///< bytes that working memory may take, as far as possible; 0: no limit; not heeded with a
+                           ///< tolerance or holes, which take a viewpoint an origin
   bool cut_outs = true;    ///< holes that materials make are holes; else every face is solid
   std::uint64_t max_texture_pixels = Scene::kMostTexturePixels;  ///< images of more make no holes
 };

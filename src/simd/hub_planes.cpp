@@ -26,7 +26,8 @@ inline constexpr float kHubEdgeError = 14 * 0x1p-24f;
 // the product with w by 10 u; their difference by one rounding more of each.
 inline constexpr float kHubPlaneError = 14 * 0x1p-24f;
 
-// Bounds outside these are not for float32. Underflow then loses less than 2^-50 of a bound.
+// Bounds outside these are not for float32, nor is a height from a determinant below the least. Underflow then loses
+// less than 2^-30 of a bound: some 2^-149 of a determinant, times w, where the bound has kHubPlaneError 2^-90 / 3 w.
 inline constexpr float kLeastHubBound = 0x1p-90f;
 inline constexpr float kGreatestHubBound = 0x1p90f;
 
@@ -103,9 +104,12 @@ HWY_INLINE std::uint32_t set_up_some(const FacePack& faces, const Vector& hub, s
   store(ab, factor, i, planes.ab);
   store(ca, factor, i, planes.ca);
   store(normal, factor, i, planes.normal);
-  // 0 if either bound, or their quotient, is not for float32.
+  // 0 if either bound, or their quotient, is not for float32. Of a determinant below the least, underflow may have
+  // taken more than a bound allows, once it is divided by one and multiplied by w, which is up to 1 /
+  // kLeastHubDistance.
   const auto scale = hn::Mul(edge_bound, plane_factor);
-  const auto is_usable = hn::And(hn::Ne(factor, hn::Zero(d)), hn::Le(scale, hn::Set(d, kGreatestHubBound)));
+  const auto is_usable = hn::And(hn::Ge(size, hn::Set(d, kLeastHubBound)),
+                                 hn::And(hn::Ne(factor, hn::Zero(d)), hn::Le(scale, hn::Set(d, kGreatestHubBound))));
   hn::Store(hn::IfThenElseZero(is_usable, scale), d, planes.scale + i);
   hn::Store(hn::IfThenElseZero(is_usable, hn::Mul(hn::Xor(determinant, turn), plane_factor)), d, planes.height + i);
   hn::Store(reach, d, planes.reach + i);

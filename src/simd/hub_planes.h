@@ -64,8 +64,8 @@ struct HubVerdict {
 };
 
 /// Asks all sixteen faces about each of `count` segments, which `places` names in `targets`. Writes the verdicts that
-/// are not all no, and returns how many. `own_pack`, `own_lane`: of each segment the face, by pack and place in it,
-/// that is not asked; the faces are of pack `pack`.
+/// are not all no, and returns how many. `own_places`: of each segment the place of the face that is
+/// not asked; the faces are of pack `pack`.
 std::size_t ask_pack(const HubPlanes& planes, std::uint32_t pack, const HubTargets& targets,
                      const std::uint32_t* own_places, const std::uint32_t* places, std::size_t count,
                      HubVerdict* verdicts);

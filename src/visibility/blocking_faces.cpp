@@ -1,13 +1,12 @@
 #include <facemap/error.h>
 
-#include <cmath>
 #include <mutex>
-#include <string>
 #include <vector>
 
 #include "simd/floating_point_mode.h"
 #include "visibility/pieces.h"
 #include "visibility/ray_order.h"
+#include "visibility/target_points.h"
 #include "visibility/viewpoint_parts.h"
 
 namespace facemap {
@@ -15,27 +14,15 @@ namespace {
 
 constexpr std::size_t kPiece = 1024;  // points
 
-void check_target(const Scene& scene, const Viewpoint::Targets& targets, std::size_t i) {
-  const Vector& P = targets.points[i];
-  if (!std::isfinite(P.x) || !std::isfinite(P.y) || !std::isfinite(P.z)) {
-    throw Error("point " + std::to_string(i) + " is not finite");
-  }
-  const FaceId face = targets.faces.empty() ? kNoFace : targets.faces[i];
-  if (face != kNoFace && (face < 0 || static_cast<std::size_t>(face) >= scene.face_count())) {
-    throw Error("point " + std::to_string(i) + " lies on face " + std::to_string(face) + ", and there are " +
-                std::to_string(scene.face_count()));
-  }
-}
-
 }  // namespace
 
 void Viewpoint::blocked_by(const Targets& targets, std::span<FaceId> blockers, const Progress& progress) const {
   const FloatingPointMode mode;
   const std::size_t count = targets.points.size();
   check_size(blockers.size(), count);
-  if (!targets.faces.empty()) check_size(targets.faces.size(), count);
   if (targets.tolerance != 0) throw Error("blocked_by takes no tolerance");
-  for (std::size_t i = 0; i < count; ++i) check_target(kept_->scene, targets, i);
+  check_targets(targets);
+  check_points(kept_->scene, targets);
   if (count == 0) return;
   const auto skip_of = [&](std::size_t i) {
     const bool is_none = targets.faces.empty() || targets.faces[i] == kNoFace;

@@ -97,9 +97,8 @@ Pairs::Pairs(const Scene& scene, std::span<const Vector> origins, const Viewpoin
       workers_(static_cast<std::size_t>(executor.threads())) {}
 
 void Pairs::run(std::span<std::uint8_t> bits, std::size_t memory, const std::function<void(std::size_t)>& report) {
-  const Hubs kind = choose();
-  const std::size_t count = ends(kind).size();
-  const std::size_t piece = piece_for(count, FacePacks::bytes_for(scene_), memory, workers_.size());
+  const Hubs kind = choose(memory);
+  const std::size_t count = ends(kind).size(), piece = piece_of(kind, memory);
   for (std::size_t first = 0; first < count; first += piece) {
     set_ends(kind, first, std::min(first + piece, count));
     if (kind == Hubs::Origins) {
@@ -110,19 +109,24 @@ void Pairs::run(std::span<std::uint8_t> bits, std::size_t memory, const std::fun
   }
 }
 
+std::size_t Pairs::piece_of(Hubs kind, std::size_t memory) const {
+  return piece_for(ends(kind).size(), FacePacks::bytes_for(scene_), memory, workers_.size());
+}
+
 // By samples. What they cost is counted, not timed, so that each run does the same.
-Pairs::Hubs Pairs::choose() {
+Pairs::Hubs Pairs::choose(std::size_t memory) {
   const std::size_t origins = origins_.size(), points = targets_.points.size();
   if (std::min(origins, points) < kFewestToChoose) return origins <= points ? Hubs::Origins : Hubs::Points;
   const auto samples = [](std::size_t hubs) { return std::max(kFewestSamples, hubs / kHubsPerSample); };
-  const double by_origins = work_of(Hubs::Origins, samples(origins)) * static_cast<double>(origins);
-  const double by_points = work_of(Hubs::Points, samples(points)) * static_cast<double>(points);
+  const double by_origins = work_of(Hubs::Origins, samples(origins), memory) * static_cast<double>(origins);
+  const double by_points = work_of(Hubs::Points, samples(points), memory) * static_cast<double>(points);
   return by_origins <= by_points ? Hubs::Origins : Hubs::Points;
 }
 
 // Of a hub.
-double Pairs::work_of(Hubs kind, std::size_t samples) {
-  const std::size_t count = std::min(ends(kind).size(), kMostSampledEnds), hub_count = hubs(kind).size();
+double Pairs::work_of(Hubs kind, std::size_t samples, std::size_t memory) {
+  const std::size_t count = std::min({ends(kind).size(), kMostSampledEnds, piece_of(kind, memory)});
+  const std::size_t hub_count = hubs(kind).size();
   set_ends(kind, 0, count);
   std::vector<double> works(samples);
   executor_.for_each(samples, [&](std::size_t i, int worker) {

@@ -39,8 +39,9 @@ class Pairs {
   std::span<const Vector> ends(Hubs kind) const { return kind == Hubs::Origins ? targets_.points : origins_; }
   std::uint32_t own_place(std::size_t point) const;
 
-  Hubs choose();
-  double work_of(Hubs kind, std::size_t samples);
+  std::size_t piece_of(Hubs kind, std::size_t memory) const;
+  Hubs choose(std::size_t memory);
+  double work_of(Hubs kind, std::size_t samples, std::size_t memory);
   void set_ends(Hubs kind, std::size_t first, std::size_t last);
   void ask(Hubs kind, std::size_t hub, Worker& worker) const;
   void ask_origins(std::size_t first, std::span<std::uint8_t> bits, const std::function<void(std::size_t)>& report);

@@ -37,6 +37,7 @@ std::size_t ParallelPass::bytes_for(const Scene& scene, std::size_t targets) {
 
 void ParallelPass::run(const Vector& d, std::size_t first, std::span<std::uint8_t> visible) {
   std::fill(visible.begin(), visible.end(), std::uint8_t{1});
+  if (scene_.kept_faces().empty()) return;  // nor has the scene a size then
   const ParallelFrame frame(scene_, d, kFrameTexels);
   const ParallelFaces faces(frame);
   const Question question{d, first, visible, frame, faces};

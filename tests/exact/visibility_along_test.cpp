@@ -152,6 +152,16 @@ TEST(VisibilityAlong, TellsHowFarItIsAndStops) {
   EXPECT_THROW(ask(scene, directions, {points}, {.threads = 2}, [](double) { return false; }), Error);
 }
 
+TEST(VisibilityAlong, ASceneWithoutSizeHidesNothing) {
+  Mesh mesh;
+  mesh.positions = {Vector(5), Vector(5), Vector(5)};
+  mesh.triangles = {{0, 1, 2}};
+  const std::vector<Vector> points(2, Vector(5)), directions{{0, 0, 1}};
+  std::vector<std::uint8_t> bits(1);
+  visibility_along(Scene(mesh), directions, {points}, bits);
+  EXPECT_EQ(bits[0], 3);
+}
+
 TEST(VisibilityAlong, RefusesWhatMakesNoSense) {
   const Scene scene(test_scenes::uv_sphere(12, 8, {0, 0, 0}, 1));
   const std::vector<Vector> fine(9, Vector(2, 0, 0)), wild{Vector(0, NAN, 0)}, endless{Vector(HUGE_VALF, 0, 0)},

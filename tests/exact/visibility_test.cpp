@@ -215,6 +215,19 @@ TEST(Visibility, IsThatOfViewpoints) {
   }
 }
 
+// A determinant of some 2^-149 has lost what the smallest distances make large.
+TEST(Visibility, FacesTooSmallForFloat32HideWhatIsBehindThem) {
+  const float a = 0x1.ae1cb8p-79f, s = 0x1.1a1674p-36f;
+  Mesh mesh;
+  mesh.positions = {{a, a, a}, {s, -s, 0}, {0, s, -s}, {0.5f, 0.5f, -1}, {1.5f, 0.5f, -1}, {0.5f, 1.5f, -1}};
+  mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  const Vector origin(0), point(0x1.000002p-60f, -0x1p-61f, -0x1.fffd68p-62f);
+  ASSERT_FALSE(Truth(mesh).is_visible(origin, point, kNoFace));
+  std::vector<std::uint8_t> bits(1, 0xff);
+  visibility(Scene(mesh), {&origin, 1}, {{&point, 1}}, bits);
+  EXPECT_EQ(bits[0], 0);
+}
+
 TEST(Visibility, TellsHowFarItIsAndStops) {
   Random random(0x5eed0d18);
   const Scene scene = ball();
