@@ -1,4 +1,5 @@
 #include "bindings.h"
+#include "pickling.h"
 
 PYBIND11_MODULE(_facemap, module) {
   using namespace facemap::python;
@@ -12,4 +13,5 @@ PYBIND11_MODULE(_facemap, module) {
   bind_pictures(module);
   bind_image_files(module);
   bind_views(module);
+  complete_pickling(module);
 }

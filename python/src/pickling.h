@@ -40,4 +40,8 @@ void add_pickling(Bound& bound, const StateOf& state_of, const FromState& from_s
   });
 }
 
+/// Gives the other classes that `holder` holds, a module or a class, a __reduce__ too, lest they end the process:
+/// enumerations become their numbers, and the rest is refused with TypeError.
+void complete_pickling(const py::object& holder);
+
 }  // namespace facemap::python

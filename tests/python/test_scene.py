@@ -82,6 +82,14 @@ def test_every_way_to_copy_a_scene_or_a_view_gives_the_same(floor, again):
     assert (copied.face_count, floor.face_count) == (4, 2)
 
 
+@pytest.mark.parametrize("again", WAYS)
+def test_what_lies_behind_is_copied_or_refused(again):
+    assert again(facemap._facemap.Light.Kind.spot) == facemap._facemap.Light.Kind.spot
+    for thing in facemap._facemap.Light(), facemap._facemap.RenderOptions(), facemap._facemap.Lens.equirect(4, 2):
+        with pytest.raises(TypeError, match="cannot pickle"):
+            again(thing)
+
+
 def test_a_state_that_has_lost_bytes_is_refused(floor):
     again, (state,) = floor.render(width=4, height=4)._image.__reduce__()
     with pytest.raises(ValueError, match="bytes"):
