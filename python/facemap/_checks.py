@@ -15,6 +15,9 @@ from .errors import Error
 
 Triple = Tuple[float, float, float]
 
+MOST_PIXELS = 1 << 28
+"""Of a picture, as of the program."""
+
 
 def array(name: str, value: Any) -> np.ndarray:
     """Anything array-like as an array of real numbers."""
@@ -22,6 +25,8 @@ def array(name: str, value: Any) -> np.ndarray:
         found = np.asarray(value)
     except Exception as error:
         raise TypeError(f"{name}: this is not an array of numbers: {error}") from error
+    if np.ma.is_masked(value):
+        raise ValueError(f"{name}: some numbers are masked")
     if found.dtype.kind not in "fiu":
         raise TypeError(f"{name}: an array of real numbers is needed, not of {found.dtype}")
     return found
@@ -96,6 +101,14 @@ def whole(name: str, value: Any, least: int, most: int) -> int:
     if not least <= found <= most:
         raise ValueError(f"{name}: {found} is none of {least} .. {most}")
     return found
+
+
+def picture_size(width: Any, height: Any) -> Tuple[int, int]:
+    """Pixels of a picture."""
+    size = whole("width", width, 1, 32768), whole("height", height, 1, 32768)
+    if size[0] * size[1] > MOST_PIXELS:
+        raise ValueError(f"width, height: {width}x{height} are more than {MOST_PIXELS} pixels")
+    return size
 
 
 def progress(value: Any) -> Any:

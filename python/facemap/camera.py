@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, Optional, Sequence
 import numpy as np
 
 from . import _checks, _facemap
-from .light import degrees
+from .light import are_same, degrees
 
 _LENSES = ("surface", "plane", "orthographic", "equirect", "cube", "opencv", "opencv-fisheye")
 
@@ -72,6 +72,9 @@ class Camera:
     layout: str = "3x2"
     name: str = ""
 
+    def __eq__(self, other: Any) -> bool:
+        return are_same(self, other)
+
     @classmethod
     def from_opencv(cls, matrix: Any, distortion: Sequence[float] = (), pose: Any = None, fisheye: bool = False,
                     name: str = "") -> Camera:
@@ -118,8 +121,7 @@ class Camera:
         """
         if self.lens == "orthographic":
             raise ValueError("lens: the rays of an orthographic camera have no common origin")
-        width = _checks.whole("width", width, 1, 32768)
-        height = _checks.whole("height", height, 1, 32768)
+        width, height = _checks.picture_size(width, height)
         view = self._complete(_checks.core_of(scene), width, height, None)
         with _checks.named("camera"):
             return Rays(np.array(view.position, np.float32), view.directions(width, height))
@@ -199,15 +201,15 @@ def _field_angle(value: Any, most: float) -> float:
     return found
 
 
-def _pose(value: Any) -> np.ndarray:
+def _pose(value: Any, name: str = "pose") -> np.ndarray:
     """The upper three rows of R|t, where R must turn and no more, to what six digits leave of it."""
-    pose = _checks.matrix("pose", value, [(3, 4), (4, 4)])
+    pose = _checks.matrix(name, value, [(3, 4), (4, 4)])
     if pose.shape == (4, 4):
-        pose = _checks.transform("pose", pose)[:3]
+        pose = _checks.transform(name, pose)[:3]
     rotation = pose[:, :3]
     error = np.abs(rotation @ rotation.T - np.eye(3)).max()
     if not error <= 1e-5 or not np.linalg.det(rotation) > 0:
-        raise ValueError("pose: the first three columns are no rotation: rows of length 1, square to each other, "
+        raise ValueError(f"{name}: the first three columns are no rotation: rows of length 1, square to each other, "
                          "unmirrored")
     return pose
 

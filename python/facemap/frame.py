@@ -213,11 +213,12 @@ class Frame:
         kind = _format_of(name)
         threads = _checks.threads(threads)
         quality = _checks.whole("quality", quality, 1, 100)
+        bits = _bits(kind, bits)
         if plane is not None:
             encoded = self._encoded_plane(plane, kind, quality, threads)
         else:
             display = _display(exposure, curve, transfer)
-            encoded = self._encoded(kind, _bits(kind, bits), quality, display, layers, threads)
+            encoded = self._encoded(kind, bits, quality, display, layers, threads)
         _facemap.write_file(name, encoded)
 
     def _encoded(self, kind: str, bits: int, quality: int, display: _facemap.Display, layers: Sequence[str],

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Sequence, Union
+from dataclasses import dataclass, fields
+from typing import Any, Sequence, Union
 
 import numpy as np
 
@@ -62,6 +62,9 @@ class Light:
     falloff: bool = False
     range: float = math.inf
 
+    def __eq__(self, other: Any) -> bool:
+        return are_same(self, other)
+
     @classmethod
     def spot(cls, position: Sequence[float], direction: Sequence[float], outer_angle: float = 45.0,
              inner_angle: float = 0.0, **fields) -> Light:
@@ -98,6 +101,19 @@ class Light:
 def degrees(radians: float) -> float:
     """A file's angle in degrees, without the rounding of the two conversions: 13 digits, as the program has it."""
     return float(f"{radians * (180 / math.pi):.13g}")
+
+
+def are_same(one: Any, other: Any) -> Any:
+    """Whether two of a data class have equal fields, some of which may be arrays."""
+    if type(other) is not type(one):
+        return NotImplemented
+    return all(_is_equal(getattr(one, field.name), getattr(other, field.name)) for field in fields(one))
+
+
+def _is_equal(value: Any, other: Any) -> bool:
+    if isinstance(value, str) or isinstance(other, str):
+        return isinstance(value, str) and isinstance(other, str) and value == other
+    return np.array_equal(value, other)
 
 
 def _between(name: str, value: float, most: float) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import threading
 from typing import Any, Callable, Dict, Iterable, Iterator, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -14,7 +15,6 @@ from .frame import Frame
 from .light import Light
 
 _MOST_VERTICES = 2**32 - 1  # indices are uint32, and the last one means "none"
-_MOST_PIXELS = 1 << 28  # as of the program
 
 
 class Scene:
@@ -84,14 +84,17 @@ class Scene:
 
     def _begin(self, core: _facemap.Scene) -> None:
         self._parts: List[_facemap.Scene] = [core]  # joined when the sum is needed
+        self._joining = threading.RLock()
         self.lights: List[Light] = [Light._from_core(light) for light in core.lights]
         self.cameras: List[Camera] = [Camera._from_core(camera) for camera in core.cameras]
 
     @property
     def _core(self) -> _facemap.Scene:
-        if len(self._parts) > 1:
-            self._parts = [_facemap.joined(self._parts, 0)]
-        return self._parts[0]
+        with self._joining:
+            count = len(self._parts)  # another thread may add more while these are joined
+            if count > 1:
+                self._parts[:count] = [_facemap.joined(self._parts[:count], 0)]
+            return self._parts[0]
 
     def add(self, other: Union[Scene, Any], transform: Any = None) -> Scene:
         """Adds another scene's or mesh's faces behind those that are there, with their materials.
@@ -254,19 +257,24 @@ class Scene:
         >>> for i, frame in enumerate(scene.frames(cameras)):
         ...     frame.save(f"frame_{i}.png")
         """
-        core = self._core
-        width = _checks.whole("width", width, 1, 32768)
-        height = _checks.whole("height", height, 1, 32768)
-        if width * height > _MOST_PIXELS:
-            raise ValueError(f"width, height: {width}x{height} are more than {_MOST_PIXELS} pixels")
+        width, height = _checks.picture_size(width, height)
         progress = _checks.progress(progress)
         names, settings = render_options(width, height, samples, planes, options)
-        painter, world_up = None, None
+        up = _checks.optional(_checks.direction, "up", up)
+        try:
+            one_by_one = iter(cameras)
+        except TypeError as error:
+            raise TypeError(f"cameras: a sequence of Camera is needed, not {type(cameras).__name__}") from error
+        return self._drawn(one_by_one, lights, width, height, names, settings, up, progress)
+
+    def _drawn(self, cameras: Iterator[Camera], lights: Optional[Iterable[Light]], width: int, height: int,
+               names: Sequence[str], settings: Any, up: Optional[Sequence[float]], progress: Any) -> Iterator[Frame]:
+        core, painter, world_up = self._core, None, None
         for camera in cameras:
             if not isinstance(camera, Camera):
                 raise TypeError(f"camera: a Camera is needed, not {type(camera).__name__}")
             if painter is None:
-                world_up = _checks.direction("up", up) if up is not None else camera._world_up(core)
+                world_up = up if up is not None else camera._world_up(core)
             view = camera._complete(core, width, height, world_up)
             if painter is None:
                 settings.set_up(world_up)
@@ -340,7 +348,8 @@ def _arrays_of(mesh: Any) -> Tuple[Any, Any]:
     if faces is None:
         faces = getattr(mesh, "triangles", None)
     if not hasattr(mesh, "vertices") or faces is None:
-        raise TypeError(f"faces: none are given, and {type(mesh).__name__} is no mesh with vertices and faces")
+        hint = "; facemap.load reads files" if isinstance(mesh, (str, bytes, os.PathLike)) else ""
+        raise TypeError(f"faces: none are given, and {type(mesh).__name__} is no mesh with vertices and faces{hint}")
     return mesh.vertices, faces
 
 

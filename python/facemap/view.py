@@ -271,7 +271,7 @@ class View:
         --------
         >>> view.image(512, 512).save("map.png")
         """
-        size = _checks.whole("width", width, 1, 32768), _checks.whole("height", height, 1, 32768)
+        size = _checks.picture_size(width, height)
         angle = _checks.finite_number("field_angle", field_angle)
         if not 0 < angle <= 360:
             raise ValueError(f"field_angle: {angle} is not above 0 and at most 360 degrees")

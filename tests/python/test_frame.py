@@ -217,6 +217,25 @@ def test_wrong_arguments_are_named(floor, options, error, name):
         floor.render(**{"width": 8, "height": 8, **options})
 
 
+def test_frames_complain_at_once(floor, tmp_path):
+    with pytest.raises(TypeError, match="cameras: .*not Camera"):
+        floor.frames(facemap.Camera())
+    with pytest.raises(ValueError, match="width"):
+        floor.frames([], width=-5)
+    with pytest.raises(ValueError, match="bits"):
+        floor.render(width=8, height=8).save(tmp_path / "depth.npy", "depth", bits=77)
+
+
+def test_lights_and_cameras_of_arrays_are_compared(floor):
+    lamps = [facemap.Light(np.array([0, 1, z])) for z in (2, 3)]
+    floor.lights[:] = lamps
+    floor.lights.remove(facemap.Light((0, 1, 3)))
+    assert floor.lights == lamps[:1] != lamps[1:] and lamps[0] != facemap.Camera() and lamps[0] != 7
+    assert facemap.Light(color="#ffffff") == facemap.Light(color="#ffffff") != facemap.Light(color=np.ones(3))
+    camera = facemap.Camera.from_opencv(np.eye(3), np.zeros(4), np.eye(4))
+    assert camera == facemap.Camera.from_opencv(np.eye(3), np.zeros(4), np.eye(4)) != facemap.Camera()
+
+
 def test_files_that_cannot_be_written_are_named(floor, tmp_path):
     frame = floor.render(width=4, height=4)
     with pytest.raises(facemap.Error, match=re.escape(str(tmp_path / "none" / "a.png"))):

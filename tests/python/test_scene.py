@@ -3,6 +3,7 @@
 import copy
 import errno
 import pickle
+import threading
 from types import SimpleNamespace
 
 import numpy as np
@@ -55,6 +56,23 @@ def test_added_faces_come_behind_and_are_moved(floor):
     assert floor.vertices[4].tolist() == [0, 2, 0]
     floor.add(SimpleNamespace(vertices=CORNERS, faces=[[0, 1, 2]])).add(floor)
     assert floor.face_count == 8
+
+
+def test_faces_added_while_others_are_joined_are_kept(floor, monkeypatch):
+    scene = facemap.Scene(CORNERS, [[0, 1, 2]]).add(floor)
+    join = facemap._facemap.joined
+
+    def joined(parts, threads):
+        writer = threading.Thread(target=scene.add, args=(floor,))
+        writer.start()
+        writer.join()
+        return join(parts, threads)
+
+    with monkeypatch.context() as change:
+        change.setattr(facemap._facemap, "joined", joined)
+        assert scene.face_count == 3
+    assert scene.face_count == 5
+    assert pickle.loads(pickle.dumps(scene)).add(floor).face_count == 7
 
 
 def test_mirrored_parts_keep_their_fronts(floor):
@@ -158,6 +176,9 @@ def test_a_file_that_cannot_be_opened_is_an_os_error_too(tmp_path):
     ([[0, 0, 0], [1]], [[0, 0, 0]], TypeError, "vertices"),
     (None, [[0, 0, 0]], TypeError, "vertices"),
     (7, None, TypeError, "faces"),
+    ("x.obj", None, TypeError, "facemap.load reads files"),
+    (np.ma.masked_equal(CORNERS, 1), [[0, 1, 2]], ValueError, "vertices: some numbers are masked"),
+    (CORNERS, np.ma.masked_equal([[0, 1, 2]], 1), ValueError, "faces: some numbers are masked"),
 ])
 def test_wrong_arrays_are_named(vertices, faces, error, name):
     with pytest.raises(error, match=name):

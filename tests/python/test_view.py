@@ -180,6 +180,8 @@ def test_a_view_keeps_its_scene_as_it_was(floor):
     (lambda v: facemap.visibility_along(facemap.generate("bust"), [[0, 0, 0]], [[0, 0, 0]]), ValueError, "directions"),
     (lambda v: facemap.visibility_along(facemap.generate("bust"), [[0, 0, np.inf]], [[0, 0, 0]]), ValueError,
      "directions"),
+    (lambda v: v.image(32768, 32768), ValueError, "width, height: .*pixels"),
+    (lambda v: facemap.Camera((0, 0, 1)).rays(facemap.generate("bust"), 32768, 32768), ValueError, "width, height"),
     (lambda v: facemap.generate("castle"), ValueError, "name"),
     (lambda v: facemap.generate("bust", 99), ValueError, "detail"),
 ])
