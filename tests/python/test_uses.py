@@ -95,6 +95,20 @@ def test_a_terrain_has_a_vertex_a_height():
         assert (np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, axis] > 0).all()
 
 
+def test_masked_heights_are_holes():
+    heights = np.ma.masked_equal([[1.0, 2, 3], [1, 2, -9]], -9)
+    land = facemap.terrain(heights)
+    assert land.face_count == 2 and np.array_equal(land.faces, facemap.terrain(heights.filled(np.nan)).faces)
+    assert facemap.terrain(np.ma.array([[1, 2], [3, 4]])).face_count == 2
+
+
+def test_terrains_keep_neighbours_apart():
+    for up in "yz":
+        with pytest.raises(ValueError, match="corner: .*subtract an offset"):
+            facemap.terrain(np.zeros((3, 3)), 0.1, (5e5, 5.2e6), up)
+    assert facemap.terrain(np.zeros((3, 3)), 10, (5e5, 5.2e6)).odd_faces["zero_area"] == 0
+
+
 def test_points_stand_on_the_ground(random):
     heights = random.uniform(0, 3, (6, 7))
     land = facemap.terrain(heights)
@@ -134,6 +148,14 @@ def test_viewshed_is_what_views_see(random):
     assert np.array_equal(facemap.viewshed(land, observers, grid), lifted.sum(axis=0).reshape(12, 15))
 
 
+def test_viewshed_of_no_points():
+    land = facemap.terrain(np.zeros((2, 2)))
+    for observers, shape in (([[0.5, 0, 0.5]], (1, 0)), (np.zeros((0, 3)), (0, 0)), ([0.5, 0, 0.5], (0,))):
+        assert facemap.viewshed(land, observers, np.zeros((0, 3)), each=True).shape == shape
+    assert facemap.viewshed(land, np.zeros((2, 0, 3)), each=True).shape == (2, 0, 4)
+    assert facemap.viewshed(land, [0.5, 0, 0.5], max_distance=0).tolist() == [0, 0, 0, 0]
+
+
 def test_where_there_is_no_ground_nothing_is_seen():
     heights = np.zeros((4, 4))
     heights[0, 0] = np.nan
@@ -158,6 +180,21 @@ def test_lamp_coverage(roof):
     assert not lit.any() and lit.shape == (1, 3, 1) and irradiance.shape == (3, 1, 3)
     lit, irradiance = facemap.lamp_coverage(roof, points, [])
     assert lit.shape == (0, 3) and not irradiance.any()
+
+
+@pytest.mark.filterwarnings("error")
+def test_lamp_coverage_at_a_lamps_very_place(roof):
+    place = [[1, 3, 0]]
+    for fields, known in (({}, np.inf), ({"color": (1, 0, 0)}, [np.inf, 0, 0]), ({"intensity": 0}, 0),
+                          ({"range": 2}, np.inf), ({"range": 1e-300}, np.inf)):
+        lit, irradiance = facemap.lamp_coverage(roof, place, facemap.Light(place[0], **fields))
+        assert lit.all() and np.array_equal(irradiance[0], np.broadcast_to(known, 3))
+        lit, irradiance = facemap.lamp_coverage(roof, place, facemap.Light(place[0], **fields), (0, 1, 0))
+        assert not lit.any() and not irradiance.any()
+    for angle in (30, 180):
+        lit, irradiance = facemap.lamp_coverage(roof, place, facemap.Light.spot(place[0], (0, -1, 0), angle))
+        assert not lit.any() and not irradiance.any()
+    assert not facemap.lamp_coverage(roof, [[1, 3, 1]], facemap.Light(place[0], range=1e-300)).lit.any()
 
 
 def test_lamp_coverage_is_what_a_picture_shows():
@@ -245,15 +282,29 @@ def test_a_rig_is_its_cameras_one_by_one(bust):
     (lambda s: facemap.viewshed(s, [[0, 0, 0]], of="faces", target_height=1), ValueError, "of"),
     (lambda s: facemap.viewshed(s, [[0, 0, 0]], faces=[0]), ValueError, "faces"),
     (lambda s: facemap.viewshed(s, [[0, 0, 0]], eye_height="tall"), TypeError, "eye_height"),
+    (lambda s: facemap.viewshed(s, [[0, 0, 0]], max_distance=-1), ValueError, "max_distance: -1.0 is below 0"),
+    (lambda s: facemap.viewshed(s, [[0, 0, 0]], [[0, 0, 0]], of="nonsense"), ValueError, "of"),
+    (lambda s: facemap.viewshed(s, [[0, 0, 0]], of="faces", tolerance="junk"), TypeError, "tolerance"),
+    (lambda s: facemap.viewshed(s, [[0, 0, 0]], of="faces", progress=5), TypeError, "progress"),
+    (lambda s: facemap.viewshed(s, np.zeros((0, 3)), threads=-1), ValueError, "threads"),
+    (lambda s: facemap.viewshed(s, [[0, 0, 0]], np.ma.masked_equal([[0, 1, 2]], 1)), ValueError,
+     "points: some numbers are masked"),
     (lambda s: facemap.lamp_coverage(s, [[0, 0, 0]], 7), TypeError, "lamps"),
     (lambda s: facemap.lamp_coverage(s, [[0, 0, 0]], [[0, 0]]), ValueError, "lamps"),
     (lambda s: facemap.lamp_coverage(s, [[0, 0, 0]], [facemap.Light(), 3]), TypeError, "lamps"),
     (lambda s: facemap.lidar(s, np.eye(3), [0], [0]), ValueError, "pose"),
     (lambda s: facemap.lidar(s, 2 * np.eye(4) - np.diag([0, 0, 0, 1]), [0], [0]), ValueError, "pose"),
+    (lambda s: facemap.lidar(s, np.eye(4) + 1e39 * np.eye(4, k=3), [0], [0]), ValueError, "pose: .*finite"),
     (lambda s: facemap.lidar(s, np.eye(4), [91], [0]), ValueError, "elevations"),
     (lambda s: facemap.lidar(s, np.eye(4), [0], 0), ValueError, "azimuths"),
     (lambda s: facemap.lidar(s, np.eye(4), [0], [0], "far"), TypeError, "max_range"),
     (lambda s: facemap.camera_rig(s, np.eye(3), None, np.eye(4), 8, 8), ValueError, "poses"),
+    (lambda s: facemap.camera_rig(s, np.eye(3), None, [np.eye(4)], 8, 8, rig=np.diag([2, 2, 2, 1])), ValueError,
+     "^rig: .*no rotation"),
+    (lambda s: facemap.camera_rig(s, np.eye(3), None, [np.eye(4), np.diag([1, 1, -1, 1])], 8, 8), ValueError,
+     "^poses: camera 1: .*no rotation"),
+    (lambda s: facemap.camera_rig(s, [np.eye(3), np.diag([1, -1, 1])], None, [np.eye(4)] * 2, 8, 8), ValueError,
+     "^matrices.*: camera 1: "),
     (lambda s: facemap.camera_rig(s, np.eye(2), None, [np.eye(4)], 8, 8), ValueError, "matrices"),
     (lambda s: facemap.camera_rig(s, np.eye(3), [[1], [2]], [np.eye(4)], 8, 8), ValueError, "distortions"),
 ])

@@ -21,11 +21,12 @@ def terrain(heights: Any, spacing: float = 1.0, corner: Sequence[float] = (0.0, 
     ----------
     heights : (rows, columns) floats
         World units, at least 2 x 2. Row 0 is the far one (north), column 0 the left one (west). Where a number is NaN
-        there is no ground: cells that touch it are left out.
+        there is no ground: cells that touch it are left out. What a masked array masks is NaN.
     spacing : float
         World units from one row or column to the next.
     corner : two floats
-        Where row 0, column 0 lies: x and z if y points up, x and y if z does.
+        Where row 0, column 0 lies: x and z if y points up, x and y if z does. Map coordinates of many digits lose
+        the last ones as float32; a ValueError says so where neighbours would coincide: subtract an offset.
     up : "y" or "z"
         Rows go towards +z if y points up, and towards -y if z does.
 
@@ -43,7 +44,7 @@ def terrain(heights: Any, spacing: float = 1.0, corner: Sequence[float] = (0.0, 
     --------
     >>> land = facemap.terrain(np.random.default_rng(1).uniform(0, 5, (50, 80)), spacing=10)
     """
-    grid = _checks.array("heights", heights).astype(np.float64)
+    grid = _grid(heights)
     if grid.ndim != 2 or min(grid.shape) < 2:
         raise ValueError(f"heights: the shape is {grid.shape}, and (rows, columns) of at least 2 is needed")
     if np.isinf(grid).any():
@@ -63,7 +64,21 @@ def terrain(heights: Any, spacing: float = 1.0, corner: Sequence[float] = (0.0, 
     vertices = np.stack([x, known, across] if is_y else [x, across, known], axis=-1).reshape(-1, 3)
     if not np.abs(vertices).max() < np.finfo(np.float32).max:
         raise ValueError("heights, spacing, corner: a vertex would be too far away for float32")
+    if _coincide(x[0]) or _coincide(across[:, 0]):
+        raise ValueError(f"corner: with spacing {step:g} neighbouring places coincide as float32; subtract an offset")
     return Scene(vertices, _cells(~np.isnan(grid)))
+
+
+def _grid(heights: Any) -> np.ndarray:
+    """In float64; what is masked is NaN."""
+    if not isinstance(heights, np.ma.MaskedArray):
+        return _checks.array("heights", heights).astype(np.float64)
+    grid = _checks.array("heights", heights.data).astype(np.float64)
+    return np.where(np.ma.getmaskarray(heights), np.nan, grid)
+
+
+def _coincide(places: np.ndarray) -> bool:
+    return bool((np.diff(places.astype(np.float32)) == 0).any())
 
 
 def _cells(is_known: np.ndarray) -> np.ndarray:
@@ -80,7 +95,8 @@ def _cells(is_known: np.ndarray) -> np.ndarray:
 def on_ground(scene: Scene, points: Any, height: float = 0.0, *, up: Any = None) -> np.ndarray:
     """Points moved along `up` so that they stand at a height above the highest surface over or under them.
 
-    Computed in float64 and rounded to float32: to some 1e-7 of the scene's size.
+    Computed in float64 and rounded to float32: to some 1e-7 of the scene's size. Each point is compared with every
+    face: the time grows with points times faces.
 
     Parameters
     ----------

@@ -52,7 +52,8 @@ def lamp_coverage(scene: Scene, points: Any, lamps: Any, normals: Any = None, *,
     -------
     lit : (n, ...) bool
         Whether lamp i reaches a point, from in front of its normal if it has one: exact but for the rims of spots and
-        ranges. A point at the very place of a lamp is lit if it has no normal, and gets an irradiance of infinity.
+        ranges. A point at the very place of a lamp lies in no direction from it: no spot's cone holds it, and with a
+        normal it is not lit. Without both it is, and the lamp's colours get an irradiance of infinity.
     irradiance : (..., 3) float64
         Linear RGB of all lamps together.
 
@@ -75,7 +76,7 @@ def lamp_coverage(scene: Scene, points: Any, lamps: Any, normals: Any = None, *,
     for i, light in enumerate(lights):
         share, is_reached = _share(light, flat.astype(np.float64), surface)
         lit[i] &= is_reached
-        irradiance += np.where(lit[i], share, 0)[:, np.newaxis] * (np.array(light.color) * light.intensity)
+        irradiance += _times(np.where(lit[i], share, 0)[:, np.newaxis], np.array(light.color) * light.intensity)
     return Coverage(lit.reshape((len(lights),) + shape), irradiance.reshape(shape + (3,)))
 
 
@@ -121,19 +122,28 @@ def _share(light: Any, points: np.ndarray, normals: Optional[np.ndarray]) -> Tup
         return share, is_reached
     is_reached &= _arrays.is_in_front(normals, towards, places)
     cosine = np.maximum((_arrays.unit(normals) * to_light).sum(axis=-1), 0)
-    return np.where(is_reached, share, 0) * cosine, is_reached
+    return _times(np.where(is_reached, share, 0), cosine), is_reached
+
+
+def _times(share: np.ndarray, factor: np.ndarray) -> np.ndarray:
+    """Their product, where infinity times 0 is 0."""
+    product = np.zeros(np.broadcast_shapes(share.shape, factor.shape))
+    return np.multiply(share, factor, out=product, where=factor > 0)
 
 
 def _from_a_place(light: Any, points: np.ndarray) -> Tuple[np.ndarray, np.ndarray]:
+    """The direction to the lamp, zero at its very place, and the share without the surface's cosine."""
     offset = np.array(light.position, np.float32).astype(np.float64) - points
     squared = (offset * offset).sum(axis=-1)
     to_light = _arrays.unit(offset)
-    with np.errstate(divide="ignore"):
-        share = 1 / squared
+    factor = np.ones(len(points))
     if np.isfinite(light.range):
-        share = share * np.clip(1 - (squared / light.range**2) ** 2, 0, 1)
+        with np.errstate(over="ignore"):
+            factor *= 1 - np.minimum(np.sqrt(squared) / light.range, 1) ** 4
     if light.kind.name == "spot":
         cosine = -to_light @ _arrays.unit(np.array(light.direction))
         inner, outer = np.cos(light.inner_angle), np.cos(light.outer_angle)
-        share = share * np.clip((cosine - outer) / max(_LEAST_RIM, inner - outer), 0, 1) ** 2
-    return to_light, share
+        factor *= np.clip((cosine - outer) / max(_LEAST_RIM, inner - outer), 0, 1) ** 2
+        factor[squared == 0] = 0
+    with np.errstate(divide="ignore"):
+        return to_light, _times(1 / squared, factor)

@@ -8,7 +8,7 @@ from typing import Any, Iterator, List, Sequence
 import numpy as np
 
 from .. import _checks
-from ..camera import Camera
+from ..camera import Camera, _pose
 from ..frame import Frame
 from ..scene import Scene
 
@@ -59,27 +59,37 @@ def camera_rig(scene: Scene, matrices: Any, distortions: Any, poses: Any, width:
     >>> ahead, back = facemap.camera_rig(scene, K, [0.05, 0.01, 0, 0], [np.eye(4), turned], 320, 240)
     """
     _checks.core_of(scene)
-    body = np.eye(4) if rig is None else _checks.transform("rig", rig)
+    body = np.eye(4) if rig is None else _turn_and_place("rig", rig)
     places = _many("poses", poses, (4, 4), None)
     lenses = _many("matrices", matrices, (3, 3), len(places))
     bends = _distortions(distortions, len(places))
-    cameras = [Camera.from_opencv(lens, bend, _checks.transform("poses", place) @ body,
+    cameras = [Camera.from_opencv(lens, bend, _turn_and_place(f"poses: camera {i}", place) @ body,
                                   fisheye=_checks.truth("fisheye", fisheye))
-               for lens, bend, place in zip(lenses, bends, places)]
-    with _named():
-        return list(scene.frames(cameras, lights, width, height, samples, **options))
+               for i, (lens, bend, place) in enumerate(zip(lenses, bends, places))]
+    frames: List[Frame] = []
+    with _named(frames):
+        for frame in scene.frames(cameras, lights, width, height, samples, **options):
+            frames.append(frame)
+    return frames
+
+
+def _turn_and_place(name: str, value: Any) -> np.ndarray:
+    """R|t in (4, 4), where R is a rotation."""
+    matrix = _checks.transform(name, value)
+    _pose(matrix, name)
+    return matrix
 
 
 @contextlib.contextmanager
-def _named() -> Iterator[None]:
-    """What is said of a camera's field gets the name of the argument that it comes from."""
+def _named(frames: List[Frame]) -> Iterator[None]:
+    """What is said of a field of the camera behind these frames gets the name of the argument that it comes from."""
     try:
         yield
     except (TypeError, ValueError) as error:
         field, _, reason = str(error).partition(":")
         if field not in _ARGUMENTS:
             raise
-        raise type(error)(f"{_ARGUMENTS[field]}:{reason}") from error
+        raise type(error)(f"{_ARGUMENTS[field]}: camera {len(frames)}:{reason}") from error
 
 
 def _many(name: str, value: Any, shape: Any, count: Any) -> np.ndarray:

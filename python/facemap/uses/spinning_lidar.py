@@ -70,7 +70,8 @@ def lidar(scene: Scene, pose: Any, elevations: Any, azimuths: Any, max_range: fl
     turns = _degrees("azimuths", azimuths)
     nearest, farthest = _checks.number("min_range", min_range), _checks.number("max_range", max_range)
     beams = _beams(rings, turns) @ matrix[:3, :3].T
-    origin = matrix[:3, 3].astype(np.float32)
+    with np.errstate(over="ignore"):
+        origin = _checks.finite("pose", matrix[:3, 3].astype(np.float32))
     face, distance = View(scene, origin, threads).nearest(beams)
     is_lost = (distance > farthest) | (distance < nearest)
     face[is_lost], distance[is_lost] = -1, np.inf

@@ -8,7 +8,7 @@ import numpy as np
 
 from .. import _checks
 from ..scene import Scene
-from ..view import View, visibility
+from ..view import View, _tolerance, visibility
 from . import _arrays
 from .ground import on_ground
 
@@ -41,9 +41,9 @@ def viewshed(terrain: Scene, observers: Any, points: Any = None, *, of: str = "v
         faces.
     stand : bool
         Whether observers stand on the ground under or over them, whatever height they are given; one without ground is
-        a ValueError.
+        a ValueError. Finding it takes time that grows with observers times faces, as on_ground does.
     max_distance : float
-        World units: what is farther from an observer's eye does not count. Not for faces. None: no limit.
+        World units, 0 or more: what is farther from an observer's eye does not count. Not for faces. None: no limit.
     each : bool
         Whether to tell of each observer, instead of counting them.
     faces, tolerance
@@ -73,23 +73,34 @@ def viewshed(terrain: Scene, observers: Any, points: Any = None, *, of: str = "v
     eyes, shape = _eyes(terrain, observers, _checks.finite_number("eye_height", eye_height),
                         _checks.truth("stand", stand), middle)
     lift = _checks.finite_number("target_height", target_height)
+    _checks.choice("of", of, ("vertices", "faces"))
+    _checks.truth("each", each)
+    _checks.progress(progress)
+    reach = _checks.optional(_distance, "max_distance", max_distance)
+    options = dict(tolerance=_tolerance(tolerance), threads=_checks.threads(threads))
     if points is None and faces is not None:
         raise ValueError("faces: they are for points, and none are given")
-    if points is None and _checks.choice("of", of, ("vertices", "faces")) == "faces":
-        if lift != 0 or max_distance is not None:
+    if points is None and of == "faces":
+        if lift != 0 or reach is not None:
             raise ValueError("of: faces take no target_height and no max_distance")
         rows = (View(terrain, eye, threads).visible_faces().visible for eye in eyes)
-        return _gathered(rows, shape, (terrain.face_count,), _checks.truth("each", each))
+        return _gathered(rows, shape, (terrain.face_count,), each)
     flat, targets_shape = _arrays.points_of(terrain.vertices if points is None else points)
     targets = flat if lift == 0 else _lifted("target_height", flat, lift, middle)
     own = None if points is None else _arrays.flat_faces(faces, targets_shape, terrain.face_count)
-    options = dict(faces=own, tolerance=tolerance, threads=threads)
-    rows = _rows(terrain, eyes, targets, max_distance, options, progress)
+    rows = _rows(terrain, eyes, targets, reach, dict(faces=own, **options), progress)
     if points is None:
         is_used = np.zeros(len(flat), np.bool_)
         is_used[terrain.faces.reshape(-1)] = True
         rows = (row & is_used for row in rows)
-    return _gathered(rows, shape, targets_shape, _checks.truth("each", each))
+    return _gathered(rows, shape, targets_shape, each)
+
+
+def _distance(name: str, value: Any) -> float:
+    found = _checks.number(name, value)
+    if found < 0:
+        raise ValueError(f"{name}: {found} is below 0")
+    return found
 
 
 def _eyes(terrain: Scene, observers: Any, height: float, stand: bool, up: np.ndarray) -> Any:
@@ -109,10 +120,9 @@ def _lifted(name: str, points: np.ndarray, height: float, up: np.ndarray) -> np.
         return _checks.finite(name, (points + height * up).astype(np.float32))
 
 
-def _rows(terrain: Scene, eyes: np.ndarray, targets: np.ndarray, max_distance: Optional[float],
+def _rows(terrain: Scene, eyes: np.ndarray, targets: np.ndarray, reach: Optional[float],
           options: Dict[str, Any], progress: Any) -> Any:
     """What each eye sees, one after the other."""
-    reach = None if max_distance is None else _checks.number("max_distance", max_distance)
     for part in _arrays.blocks(len(eyes), len(targets)):
         told = _arrays.part_of(progress, part, len(eyes))
         packed = visibility(terrain, eyes[part], targets, packed=True, progress=told, **options)
@@ -126,9 +136,7 @@ def _rows(terrain: Scene, eyes: np.ndarray, targets: np.ndarray, max_distance: O
 
 def _gathered(rows: Any, observers_shape: Any, targets_shape: Any, each: bool) -> np.ndarray:
     if each:
-        size = int(np.prod(targets_shape))
-        found = np.array(list(rows), np.bool_).reshape(-1, size)
-        return found.reshape(observers_shape + targets_shape)
+        return np.array(list(rows), np.bool_).reshape(observers_shape + targets_shape)
     count = np.zeros(int(np.prod(targets_shape)), np.int32)
     for row in rows:
         count += row
