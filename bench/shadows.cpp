@@ -218,7 +218,7 @@ void all_faces(benchmark::State& state) {
     state.PauseTiming();
     k.sort(rest);
     state.ResumeTiming();
-    faces.run({scene, k.light, k.frame, 1, nullptr, nullptr, never}, k.sorted, counters);
+    faces.run({scene, k.light, k.frame, 1, nullptr, nullptr, nullptr, never}, k.sorted, counters);
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(counters.by_float / 16));
 }
