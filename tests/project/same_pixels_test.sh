@@ -1,11 +1,14 @@
 #!/bin/sh
-# The same pixels and planes, and the same generated scenes, from g++ and clang++, with and without optimization.
-# Needs build/release, build/clang and build/dev; makes the fourth build itself.
+# same_pixels_test.sh [BUILDS]: the same pixels and planes, and the same generated scenes, from g++ and clang++, with and
+# without optimization. Needs build/release and the others (clang dev if none is named); makes clang-dev itself.
 set -eu
+builds=${*:-clang dev}
 
-cmake -S . -B build/clang-dev -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_COMPILER=clang++-14 \
-  -DFACEMAP_BUILD_TESTS=OFF >/dev/null
-cmake --build build/clang-dev --target facemap_program
+case " $builds " in *' clang-dev '*)
+  cmake -S . -B build/clang-dev -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_COMPILER=clang++-14 \
+    -DFACEMAP_BUILD_TESTS=OFF >/dev/null
+  cmake --build build/clang-dev --target facemap_program
+esac
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -28,7 +31,7 @@ draw() {
 }
 
 draw "$root/build/release/bin/facemap" "$folder/release"
-for build in clang dev clang-dev; do
+for build in $builds; do
   draw "$root/build/$build/bin/facemap" "$folder/$build"
   diff -r "$folder/release" "$folder/$build"
   echo "build/$build: the same"
